@@ -1,0 +1,19 @@
+// The linear-algebra names used in focal's headers; Eigen is named nowhere else in a header.
+#pragma once
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <Eigen/SparseCore>
+#include <cstdint>
+
+namespace focal {
+
+using Vector3 = Eigen::Vector3d;
+using Vector = Eigen::VectorXd;
+using Matrix = Eigen::MatrixXd;                                                       // column-major
+using MatrixX3 = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;           // points
+using MatrixX3i = Eigen::Matrix<int32_t, Eigen::Dynamic, 3, Eigen::RowMajor>;         // triangles
+using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using RowMatrixf = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int32_t>;
+
+}  // namespace focal

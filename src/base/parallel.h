@@ -1,0 +1,36 @@
+// How a stage is run: threads, and the task that may cancel it. Passed by const reference through every stage.
+#pragma once
+#include <cstdint>
+#include <functional>
+
+#include "base/task.h"
+
+namespace focal {
+
+struct Execution {
+  int thread_count = 0;  // 0: one a core
+  Task* task = nullptr;  // may be null
+  // The host's own parallel-for, or empty: run body(i) for i in [0, count) in any order, return when all are done.
+  std::function<void(int64_t count, const std::function<void(int64_t)>& body)> host_parallel_for;
+
+  int threads() const;
+  // Throws Error{cancelled} when the task was cancelled. Call it at least every few milliseconds of work.
+  void check_cancelled() const;
+  void begin_stage(const char* name, double from, double to) const {
+    if (task) task->begin_stage(name, from, to);
+  }
+  void report(double fraction) const {
+    if (task) task->report(fraction);
+  }
+};
+
+// Runs body(i) for every i in [0, count) on execution.threads() threads, started and joined inside the call.
+// The order is free, so a body must write only what belongs to i: results are then the same bits for any thread count.
+// Checks for cancellation before each i; the first exception of a body is rethrown here.
+void parallel_for(const Execution& execution, int64_t count, const std::function<void(int64_t)>& body);
+
+// The same over [0, count) cut in ranges of at most `grain`.
+void parallel_for_ranges(const Execution& execution, int64_t count, int64_t grain,
+                         const std::function<void(int64_t begin, int64_t end)>& body);
+
+}  // namespace focal

@@ -1,0 +1,50 @@
+// The order of the stages, from a prepared mesh to landmarks.
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/parallel.h"
+#include "landmarks/landmark_model.h"
+#include "landmarks/params.h"
+#include "mesh/prepare.h"
+
+namespace focal {
+
+enum class LandmarkStatus : int32_t { found = 0, uncertain = 1, absent = 2 };
+
+struct DetectedPoint {
+  SurfacePoint source_point;      // on mesh->source: the caller's triangle numbers
+  int32_t source_vertex = -1;     // the caller's vertex nearest to it
+  Vector3 position = Vector3::Zero();  // caller's coordinates
+  double confidence = 0;          // 0..1: probability of lying within 4 % of sqrt(area) of the truth
+};
+
+struct DetectedLandmark : DetectedPoint {
+  LandmarkStatus status = LandmarkStatus::absent;
+  double expected_error = 0;      // caller's units
+  std::optional<DetectedPoint> runner_up;
+};
+
+// Seconds of wall time a stage; load, repair and proxy are filled by whoever does them.
+struct StageSeconds {
+  double load = 0, repair = 0, proxy = 0, spectrum = 0, descriptors = 0, geodesics = 0, forest = 0, vote = 0,
+         constellation = 0, refine = 0, total = 0;
+};
+
+struct Detection {
+  std::shared_ptr<const LandmarkModel> model;
+  std::shared_ptr<const PreparedMesh> mesh;
+  std::vector<DetectedLandmark> landmarks;      // one a landmark name of the model, in its order
+  RowMatrixf votes;                             // landmarks x surface vertices, each row's largest is 1; may be empty
+  double category_fit = 0;                      // 0..1
+  std::vector<std::string> warnings;
+  StageSeconds seconds;
+};
+
+Detection detect(std::shared_ptr<const LandmarkModel> model, std::shared_ptr<const PreparedMesh> mesh,
+                 const DetectParams& params, const Execution& execution);
+
+}  // namespace focal

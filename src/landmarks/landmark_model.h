@@ -1,0 +1,24 @@
+// What training makes and detection uses, and its file.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "landmarks/params.h"
+
+namespace focal {
+
+struct LandmarkModel;  // contents: landmarks/model_parts.h
+
+struct ModelInfo {
+  std::vector<std::string> landmark_names;
+  TrainParams params;
+  int32_t shape_count = 0;
+  int32_t mean_vertex_count = 0;  // of the training surfaces
+  int64_t sample_count = 0;
+  int64_t tree_node_count = 0;
+};
+
+}  // namespace focal

@@ -1,0 +1,12 @@
+// From marked shapes to a model.
+#pragma once
+#include "base/parallel.h"
+#include "landmarks/landmark_model.h"
+#include "landmarks/training_set.h"
+
+namespace focal {
+
+// Throws too_few_shapes (fewer than two shapes carry a landmark), invalid_landmark, cancelled.
+LandmarkModel train(const TrainingSet& set, const TrainParams& params, const Execution& execution);
+
+}  // namespace focal

@@ -1,0 +1,43 @@
+// A sparse Cholesky factor made once and used for many right-hand sides at a time.
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "base/matrix.h"
+
+namespace focal {
+
+// P A P^T = G G^T, A symmetric positive definite, ordered by approximate minimum degree.
+// The factor is kept by row and by column, so that both triangular solves gather: each entry of the factor is read
+// once for a block of `lanes` right-hand sides, which lie interleaved: X[i * lanes + j] is row i of side j.
+class SparseCholesky {
+ public:
+  static constexpr int lanes = 32;
+
+  SparseCholesky() = default;
+  // Throws not_converged when A is not positive definite.
+  explicit SparseCholesky(const SparseMatrix& A);
+
+  int32_t size() const { return n_; }
+  int64_t nonzeros() const;
+  // permutation()[old] = new: rows of the blocks below are in the new order.
+  const std::vector<int32_t>& permutation() const { return permutation_; }
+
+  // Solves A X = B in place for `lanes` sides, rows in the permuted order; X holds size() * lanes numbers,
+  // 64-byte aligned. Thread-safe. The float version rounds the factor to float.
+  void solve_block(double* X) const;
+  void solve_block(float* X) const;
+  // One side, in the caller's order.
+  Vector solve(const Vector& b) const;
+
+ private:
+  int32_t n_ = 0;
+  std::vector<int32_t> permutation_;
+  std::vector<int64_t> row_start_, column_start_;
+  std::vector<int32_t> row_index_, column_index_;
+  std::vector<double> row_value_, column_value_, inverse_diagonal_;
+  std::vector<float> row_value_f_, column_value_f_, inverse_diagonal_f_;
+};
+
+}  // namespace focal
