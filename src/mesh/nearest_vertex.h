@@ -1,0 +1,25 @@
+// Nearest of a fixed set of points: a kd-tree (Bentley 1975) over their numbers.
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/matrix.h"
+
+namespace focal {
+
+class NearestVertex {
+ public:
+  // Keeps a pointer to positions: they must outlive it. Only the numbers in `subset` are searched.
+  NearestVertex(const MatrixX3& positions, std::vector<int32_t> subset);
+  // The number of the nearest point and its squared distance. The set must not be empty.
+  std::pair<int32_t, double> nearest(const Vector3& query) const;
+
+ private:
+  void search(int32_t begin, int32_t end, int axis, const Vector3& query, std::pair<int32_t, double>& best) const;
+  void build(int32_t begin, int32_t end, int axis);
+  const MatrixX3* positions_;
+  std::vector<int32_t> order_;
+};
+
+}  // namespace focal

@@ -1,0 +1,151 @@
+#include "mesh/prepare.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "base/error.h"
+#include "mesh/components.h"
+
+namespace focal {
+namespace {
+
+constexpr int32_t smallest_surface = 12;  // vertices; fewer carry no shape to learn from
+
+void validate(const TriangleMesh& mesh) {
+  if (mesh.triangle_count() == 0)
+    throw Error(Status::invalid_mesh, "the mesh has no triangles",
+                "give a triangle mesh; points and lines are not analysed");
+  if (!mesh.positions.allFinite())
+    throw Error(Status::invalid_mesh, "a vertex position is NaN or infinite",
+                "clean the mesh in the tool that made it and export it again");
+  if (mesh.triangles.minCoeff() < 0 || mesh.triangles.maxCoeff() >= mesh.vertex_count())
+    throw Error(Status::invalid_mesh, "a triangle names a vertex that does not exist",
+                "indices run from 0 to the number of vertices - 1");
+}
+
+// Per vertex the smallest number with exactly its position.
+std::vector<int32_t> weld(const MatrixX3& positions) {
+  std::vector<int32_t> order(positions.rows()), first(positions.rows());
+  std::iota(order.begin(), order.end(), 0);
+  const auto key = [&](int32_t v) {  // + 0.0 makes -0 and 0 equal
+    return std::array{positions(v, 0) + 0.0, positions(v, 1) + 0.0, positions(v, 2) + 0.0};
+  };
+  std::sort(order.begin(), order.end(), [&](int32_t a, int32_t b) {
+    const auto x = key(a), y = key(b);
+    return x != y ? x < y : a < b;
+  });
+  for (size_t i = 0; i < order.size(); ++i)
+    first[order[i]] = i && key(order[i]) == key(order[i - 1]) ? first[order[i - 1]] : order[i];
+  return first;
+}
+
+// The source triangles that stay, after dropping repeated corners and repeats of the same corner set.
+std::vector<int32_t> kept_triangles(const MatrixX3i& corners, bool drop) {
+  std::vector<int32_t> kept;
+  std::vector<std::array<int32_t, 4>> sorted;
+  for (int32_t t = 0; t < corners.rows(); ++t) {
+    std::array<int32_t, 3> c{corners(t, 0), corners(t, 1), corners(t, 2)};
+    std::sort(c.begin(), c.end());
+    if (!drop)
+      kept.push_back(t);
+    else if (c[0] != c[1] && c[1] != c[2])
+      sorted.push_back({c[0], c[1], c[2], t});
+  }
+  std::sort(sorted.begin(), sorted.end());
+  for (size_t i = 0; i < sorted.size(); ++i)
+    if (!i || !std::equal(sorted[i].begin(), sorted[i].begin() + 3, sorted[i - 1].begin()))
+      kept.push_back(sorted[i][3]);
+  std::sort(kept.begin(), kept.end());
+  return kept;
+}
+
+// Fills surface and the four maps; first[v] is the source vertex that stands for v.
+void build_surface(PreparedMesh& mesh, const std::vector<int32_t>& first, const MatrixX3i& corners) {
+  mesh.surface_vertex.assign(mesh.source.vertex_count(), -1);
+  mesh.surface_triangle.assign(mesh.source.triangle_count(), -1);
+  std::vector<char> used(mesh.source.vertex_count(), 0);
+  for (const int32_t t : mesh.source_triangle)
+    for (int i = 0; i < 3; ++i) used[corners(t, i)] = 1;
+  for (int32_t v = 0; v < mesh.source.vertex_count(); ++v)
+    if (used[v]) {
+      mesh.surface_vertex[v] = static_cast<int32_t>(mesh.source_vertex.size());
+      mesh.source_vertex.push_back(v);
+    }
+  for (int32_t v = 0; v < mesh.source.vertex_count(); ++v) mesh.surface_vertex[v] = mesh.surface_vertex[first[v]];
+  mesh.surface.positions.resize(mesh.source_vertex.size(), 3);
+  for (size_t v = 0; v < mesh.source_vertex.size(); ++v)
+    mesh.surface.positions.row(v) = mesh.source.positions.row(mesh.source_vertex[v]);
+  mesh.surface.triangles.resize(mesh.source_triangle.size(), 3);
+  for (size_t t = 0; t < mesh.source_triangle.size(); ++t) {
+    mesh.surface_triangle[mesh.source_triangle[t]] = static_cast<int32_t>(t);
+    for (int i = 0; i < 3; ++i)
+      mesh.surface.triangles(t, i) = mesh.surface_vertex[corners(mesh.source_triangle[t], i)];
+  }
+}
+
+void normalise(PreparedMesh& mesh) {
+  auto& positions = mesh.surface.positions;
+  const Vector3 low = positions.colwise().minCoeff(), high = positions.colwise().maxCoeff();
+  mesh.centre = low + (high - low) / 2;
+  const double size = (high - low).maxCoeff();
+  if (!(size > 0) || !std::isfinite(size))
+    throw Error(Status::invalid_mesh, "the mesh has no extent", "all its vertices lie on one point, or overflow");
+  positions.rowwise() -= mesh.centre.transpose();
+  positions /= size;  // first to size 1: areas of meshes of size 1e-30 or 1e30 stay in range
+  const double area = surface_area(mesh.surface);
+  if (!(area > 1e-12))
+    throw Error(Status::invalid_mesh, "the surface has no area", "its triangles are all thinner than a line");
+  positions /= std::sqrt(area);
+  mesh.scale = size * std::sqrt(area);
+}
+
+void warn(PreparedMesh& mesh, const Components& components) {
+  const auto say = [&](const std::string& text) { mesh.warnings.push_back(text); };
+  if (const auto dropped = mesh.source.triangle_count() - mesh.surface.triangle_count())
+    say(std::to_string(dropped) + " degenerate or repeated triangles are ignored");
+  if (components.count > 1)
+    say("the surface has " + std::to_string(components.count) + " separate parts; they are analysed as one" +
+        (mesh.bridges.empty() ? "" : ", bridged at the nearest vertices"));
+}
+
+}  // namespace
+
+PreparedMesh prepare(TriangleMesh source, const PrepareParams& params) {
+  validate(source);
+  PreparedMesh mesh;
+  mesh.source = std::move(source);
+  std::vector<int32_t> first(mesh.source.vertex_count());
+  std::iota(first.begin(), first.end(), 0);
+  if (params.weld) first = weld(mesh.source.positions);
+  MatrixX3i corners = mesh.source.triangles.unaryExpr([&](int32_t v) { return first[v]; });
+  mesh.source_triangle = kept_triangles(corners, params.drop_degenerate);
+  build_surface(mesh, first, corners);
+  if (mesh.surface.vertex_count() < smallest_surface)
+    throw Error(Status::mesh_too_small,
+                "the surface has " + std::to_string(mesh.surface.vertex_count()) + " different vertices",
+                "at least " + std::to_string(smallest_surface) + " are needed");
+  normalise(mesh);
+  const Components components = components_of(mesh.surface);
+  if (params.bridge_components) mesh.bridges = bridge_pairs(mesh.surface, components);
+  warn(mesh, components);
+  return mesh;
+}
+
+SurfacePoint to_surface(const PreparedMesh& mesh, const SurfacePoint& source_point) {
+  return {mesh.surface_triangle[source_point.triangle], source_point.barycentric};
+}
+
+SurfacePoint to_source(const PreparedMesh& mesh, const SurfacePoint& surface_point) {
+  return {mesh.source_triangle[surface_point.triangle], surface_point.barycentric};
+}
+
+SurfacePoint at_vertex(const TriangleMesh& mesh, int32_t vertex) {
+  for (int32_t t = 0; t < mesh.triangle_count(); ++t)
+    for (int i = 0; i < 3; ++i)
+      if (mesh.triangles(t, i) == vertex) return {t, Vector3::Unit(i)};
+  return {};
+}
+
+}  // namespace focal

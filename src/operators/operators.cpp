@@ -1,0 +1,88 @@
+#include "operators/operators.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace focal {
+namespace {
+
+// Corners of triangle t as columns, and the edge opposite to each corner.
+struct Corners {
+  Eigen::Matrix3d at, opposite;
+  Vector3 normal;  // of length twice the area
+  Corners(const TriangleMesh& mesh, int32_t t) {
+    for (int i = 0; i < 3; ++i) at.col(i) = mesh.positions.row(mesh.triangles(t, i));
+    for (int i = 0; i < 3; ++i) opposite.col(i) = at.col((i + 2) % 3) - at.col((i + 1) % 3);
+    normal = opposite.col(0).cross(opposite.col(1));
+  }
+  // Gradient of the hat function of corner i times twice the area: n x e_i with a unit normal n.
+  Vector3 scaled_hat_gradient(int i) const { return normal.normalized().cross(opposite.col(i)); }
+};
+
+}  // namespace
+
+Operators make_operators(const TriangleMesh& mesh, std::span<const std::pair<int32_t, int32_t>> bridges) {
+  Operators result;
+  const int32_t n = mesh.vertex_count(), m = mesh.triangle_count();
+  result.half_cotangent.resize(m, 3);
+  result.face_area.resize(m);
+  result.area = surface_area(mesh);
+  result.mean_edge = mean_edge_length(mesh);
+  result.mass = Vector::Zero(n);
+  std::vector<Eigen::Triplet<double, int32_t>> entries;
+  entries.reserve(12 * static_cast<size_t>(m) + 4 * bridges.size());
+  const auto add_edge = [&](int32_t a, int32_t b, double weight) {
+    entries.emplace_back(a, b, -weight), entries.emplace_back(b, a, -weight);
+    entries.emplace_back(a, a, weight), entries.emplace_back(b, b, weight);
+  };
+  for (int32_t t = 0; t < m; ++t) {
+    const Corners corners(mesh, t);
+    const double twice = corners.normal.norm();
+    result.face_area[t] = twice / 2;
+    for (int i = 0; i < 3; ++i) {
+      const int j = (i + 1) % 3, k = (i + 2) % 3;
+      // The floor keeps slivers finite; it is far below the area of any triangle that matters.
+      const double cotangent =
+          -corners.opposite.col(j).dot(corners.opposite.col(k)) / std::max(twice, 1e-12 * result.area);
+      result.half_cotangent(t, i) = cotangent / 2;
+      add_edge(mesh.triangles(t, j), mesh.triangles(t, k), cotangent / 2);
+      result.mass[mesh.triangles(t, i)] += twice / 6;
+    }
+  }
+  for (const auto& [a, b] : bridges) add_edge(a, b, 1);
+  result.mass = result.mass.cwiseMax(1e-9 * result.area / n);  // a vertex of slivers only still has some mass
+  result.L.resize(n, n);
+  result.L.setFromTriplets(entries.begin(), entries.end());
+  return result;
+}
+
+MatrixX3 gradient(const TriangleMesh& mesh, const Vector& u) {
+  MatrixX3 result = MatrixX3::Zero(mesh.triangle_count(), 3);
+  for (int32_t t = 0; t < mesh.triangle_count(); ++t) {
+    const Corners corners(mesh, t);
+    const double twice = corners.normal.norm();
+    if (!(twice > 0)) continue;
+    for (int i = 0; i < 3; ++i)
+      result.row(t) += u[mesh.triangles(t, i)] * corners.scaled_hat_gradient(i).transpose() / twice;
+  }
+  return result;
+}
+
+Vector divergence(const TriangleMesh& mesh, const MatrixX3& X) {
+  Vector result = Vector::Zero(mesh.vertex_count());
+  for (int32_t t = 0; t < mesh.triangle_count(); ++t) {
+    const Corners corners(mesh, t);
+    for (int i = 0; i < 3; ++i)
+      result[mesh.triangles(t, i)] -= X.row(t).dot(corners.scaled_hat_gradient(i)) / 2;
+  }
+  return result;
+}
+
+MatrixX3 face_normals(const TriangleMesh& mesh) {
+  MatrixX3 result(mesh.triangle_count(), 3);
+  for (int32_t t = 0; t < mesh.triangle_count(); ++t)
+    result.row(t) = Corners(mesh, t).normal.stableNormalized().transpose();
+  return result;
+}
+
+}  // namespace focal
