@@ -1,0 +1,27 @@
+# The flags of everything focal builds, carried by one interface target, so that nothing leaks into a host project.
+# focal_core hands them on: Eigen is header only, so code linked together must agree on the instruction set.
+include(CheckCXXCompilerFlag)
+
+set(FOCAL_ARCH "x86-64-v2" CACHE STRING "Oldest x86-64 processor level to run on (-march); empty: the compiler's own")
+set(FOCAL_SANITIZE "" CACHE STRING "Sanitizers to build with: address,undefined or thread; empty: none")
+option(FOCAL_WERROR "Treat warnings as errors" OFF)
+
+add_library(focal_flags INTERFACE)
+target_compile_features(focal_flags INTERFACE cxx_std_20)
+# A fused multiply-add rounds once where a product and a sum round twice: results would hang on the processor.
+target_compile_options(focal_flags INTERFACE -ffp-contract=off)
+if(FOCAL_ARCH AND CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
+  check_cxx_compiler_flag(-march=${FOCAL_ARCH} FOCAL_HAS_ARCH_${FOCAL_ARCH})
+  if(FOCAL_HAS_ARCH_${FOCAL_ARCH})
+    target_compile_options(focal_flags INTERFACE -march=${FOCAL_ARCH})
+  endif()
+endif()
+if(FOCAL_SANITIZE)
+  set(sanitize -fsanitize=${FOCAL_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_compile_options(focal_flags INTERFACE ${sanitize})
+  target_link_options(focal_flags INTERFACE ${sanitize})
+endif()
+
+# Our own files only, never those of a project that links them.
+add_library(focal_warnings INTERFACE)
+target_compile_options(focal_warnings INTERFACE -Wall -Wextra $<$<BOOL:${FOCAL_WERROR}>:-Werror>)
