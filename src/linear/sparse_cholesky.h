@@ -1,7 +1,6 @@
 // A sparse Cholesky factor made once and used for many right-hand sides at a time.
 #pragma once
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "base/matrix.h"
@@ -9,18 +8,19 @@
 namespace focal {
 
 // P A P^T = G G^T, A symmetric positive definite, ordered by approximate minimum degree.
-// The factor is kept by row and by column, so that both triangular solves gather: each entry of the factor is read
-// once for a block of `lanes` right-hand sides, which lie interleaved: X[i * lanes + j] is row i of side j.
+// The factor is kept by row and by column, so that both triangular solves gather: each entry of the factor is
+// read once for a block of `lanes` right-hand sides, which lie interleaved: X[i * lanes + j] is row i of side
+// j.
 class SparseCholesky {
  public:
   static constexpr int lanes = 32;
 
   SparseCholesky() = default;
-  // Throws not_converged when A is not positive definite.
+  // Only the lower triangle of A is read. Throws not_converged when A is not positive definite.
   explicit SparseCholesky(const SparseMatrix& A);
 
-  int32_t size() const { return n_; }
-  int64_t nonzeros() const;
+  int32_t size() const { return static_cast<int32_t>(permutation_.size()); }
+  int64_t nonzeros() const { return static_cast<int64_t>(rows_.index.size()) + size(); }
   // permutation()[old] = new: rows of the blocks below are in the new order.
   const std::vector<int32_t>& permutation() const { return permutation_; }
 
@@ -32,12 +32,19 @@ class SparseCholesky {
   Vector solve(const Vector& b) const;
 
  private:
-  int32_t n_ = 0;
+  // The strict triangle of G in compressed rows: entries of row i are [start[i], start[i + 1]).
+  struct Rows {
+    std::vector<int64_t> start;
+    std::vector<int32_t> index;
+    std::vector<double> value;
+    std::vector<float> value_f;
+  };
+  void set_factor(const SparseMatrix& G);
+
   std::vector<int32_t> permutation_;
-  std::vector<int64_t> row_start_, column_start_;
-  std::vector<int32_t> row_index_, column_index_;
-  std::vector<double> row_value_, column_value_, inverse_diagonal_;
-  std::vector<float> row_value_f_, column_value_f_, inverse_diagonal_f_;
+  Rows rows_, columns_;  // G and G^T
+  std::vector<double> inverse_diagonal_;
+  std::vector<float> inverse_diagonal_f_;
 };
 
 }  // namespace focal

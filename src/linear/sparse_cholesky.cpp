@@ -1,0 +1,145 @@
+// Sparse Cholesky with blocked solves. Factorisation: Eigen's SimplicialLLT (up-looking, after Davis, "Direct
+// Methods for Sparse Linear Systems", 2006), ordered after Amestoy, Davis, Duff, "An approximate minimum
+// degree ordering", 1996.
+#include "linear/sparse_cholesky.h"
+
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/multiversion.h"
+
+namespace focal {
+namespace {
+
+constexpr int lanes = SparseCholesky::lanes;
+
+// One triangular system: row i of the solution needs the rows of its entries, visited first, last, or in
+// between.
+template <class T>
+struct Triangle {
+  const int64_t* start;
+  const int32_t* index;
+  const T* value;
+  const T* inverse_diagonal;
+  int32_t n;
+};
+
+// The lanes [lane, lane + width) of one row. Two running sums hide the latency of the subtraction; which
+// entry goes to which sum does not depend on the vector width, so every version gives the same bits.
+template <int vector_bytes, int width, class T>
+FOCAL_INLINE void solve_row(const Triangle<T>& triangle, int64_t i, int lane, T* X) {
+  typedef T Lane __attribute__((vector_size(vector_bytes), may_alias));
+  constexpr int vectors = width * int{sizeof(T)} / vector_bytes;
+  const auto at = [&](int64_t row) { return reinterpret_cast<Lane*>(X + row * lanes + lane); };
+  Lane even[vectors], odd[vectors];
+  for (int v = 0; v < vectors; ++v) even[v] = at(i)[v], odd[v] = Lane{};
+  int64_t p = triangle.start[i];
+  const int64_t end = triangle.start[i + 1];
+  for (; p + 1 < end; p += 2) {
+    const Lane *x0 = at(triangle.index[p]), *x1 = at(triangle.index[p + 1]);
+    const T g0 = triangle.value[p], g1 = triangle.value[p + 1];
+    for (int v = 0; v < vectors; ++v) even[v] -= g0 * x0[v], odd[v] -= g1 * x1[v];
+  }
+  if (p < end) {
+    const Lane* x = at(triangle.index[p]);
+    for (int v = 0; v < vectors; ++v) even[v] -= triangle.value[p] * x[v];
+  }
+  for (int v = 0; v < vectors; ++v) at(i)[v] = (even[v] + odd[v]) * triangle.inverse_diagonal[i];
+}
+
+// G X = B by the rows of G from first to last, then G^T X = B by the columns of G from last to first.
+template <int vector_bytes, class T>
+FOCAL_INLINE void solve_both(const Triangle<T>& rows, const Triangle<T>& columns, T* X) {
+  constexpr int width = std::min<int>(lanes, 4 * vector_bytes / sizeof(T));  // 2 x 4 sums stay in registers
+  for (int64_t i = 0; i < rows.n; ++i)
+    for (int lane = 0; lane < lanes; lane += width) solve_row<vector_bytes, width>(rows, i, lane, X);
+  for (int64_t i = columns.n - 1; i >= 0; --i)
+    for (int lane = 0; lane < lanes; lane += width) solve_row<vector_bytes, width>(columns, i, lane, X);
+}
+
+FOCAL_MULTIVERSION(void solve_lanes(const Triangle<double>& rows, const Triangle<double>& columns, double* X),
+                   solve_both<vector_bytes>(rows, columns, X);)
+FOCAL_MULTIVERSION(void solve_lanes(const Triangle<float>& rows, const Triangle<float>& columns, float* X),
+                   solve_both<vector_bytes>(rows, columns, X);)
+
+[[noreturn]] void throw_indefinite() {
+  throw Error(Status::not_converged,
+              "a matrix of the mesh is not positive definite, so it cannot be factored",
+              "the mesh may hold degenerate or non-finite triangles; repair it first");
+}
+
+}  // namespace
+
+SparseCholesky::SparseCholesky(const SparseMatrix& A) {
+  const Eigen::SimplicialLLT<SparseMatrix, Eigen::Lower, Eigen::AMDOrdering<int32_t>> llt(A);
+  if (llt.info() != Eigen::Success) throw_indefinite();
+  const auto& order = llt.permutationP().indices();
+  permutation_.assign(order.data(), order.data() + order.size());
+  set_factor(llt.matrixL().nestedExpression());
+}
+
+void SparseCholesky::set_factor(const SparseMatrix& G) {
+  const auto n = static_cast<int32_t>(G.cols());
+  inverse_diagonal_.resize(n);
+  rows_.start.assign(n + 1, 0), columns_.start.assign(n + 1, 0);
+  for (int32_t j = 0; j < n; ++j) {
+    for (SparseMatrix::InnerIterator entry(G, j); entry; ++entry) {
+      if (entry.row() == j) {
+        inverse_diagonal_[j] = 1 / entry.value();
+        if (!(inverse_diagonal_[j] > 0 && std::isfinite(inverse_diagonal_[j]))) throw_indefinite();
+        continue;
+      }
+      columns_.index.push_back(static_cast<int32_t>(entry.row()));
+      columns_.value.push_back(entry.value());
+      ++rows_.start[entry.row() + 1];
+    }
+    columns_.start[j + 1] = static_cast<int64_t>(columns_.index.size());
+  }
+  for (int32_t i = 0; i < n; ++i) rows_.start[i + 1] += rows_.start[i];
+  rows_.index.resize(columns_.index.size()), rows_.value.resize(columns_.index.size());
+  std::vector<int64_t> next(rows_.start.begin(), rows_.start.end() - 1);
+  for (int32_t j = 0; j < n; ++j) {
+    for (int64_t p = columns_.start[j]; p < columns_.start[j + 1]; ++p) {
+      const int64_t q = next[columns_.index[p]]++;
+      rows_.index[q] = j, rows_.value[q] = columns_.value[p];
+    }
+  }
+  rows_.value_f.assign(rows_.value.begin(), rows_.value.end());
+  columns_.value_f.assign(columns_.value.begin(), columns_.value.end());
+  inverse_diagonal_f_.assign(inverse_diagonal_.begin(), inverse_diagonal_.end());
+}
+
+void SparseCholesky::solve_block(double* X) const {
+  const double* d = inverse_diagonal_.data();
+  solve_lanes({rows_.start.data(), rows_.index.data(), rows_.value.data(), d, size()},
+              {columns_.start.data(), columns_.index.data(), columns_.value.data(), d, size()}, X);
+}
+
+void SparseCholesky::solve_block(float* X) const {
+  const float* d = inverse_diagonal_f_.data();
+  solve_lanes({rows_.start.data(), rows_.index.data(), rows_.value_f.data(), d, size()},
+              {columns_.start.data(), columns_.index.data(), columns_.value_f.data(), d, size()}, X);
+}
+
+Vector SparseCholesky::solve(const Vector& b) const {
+  Vector x(size());
+  for (int32_t i = 0; i < size(); ++i) x(permutation_[i]) = b(i);
+  for (int32_t i = 0; i < size(); ++i) {
+    double sum = x(i);
+    for (int64_t p = rows_.start[i]; p < rows_.start[i + 1]; ++p) sum -= rows_.value[p] * x(rows_.index[p]);
+    x(i) = sum * inverse_diagonal_[i];
+  }
+  for (int32_t i = size() - 1; i >= 0; --i) {
+    double sum = x(i);
+    for (int64_t p = columns_.start[i]; p < columns_.start[i + 1]; ++p)
+      sum -= columns_.value[p] * x(columns_.index[p]);
+    x(i) = sum * inverse_diagonal_[i];
+  }
+  Vector out(size());
+  for (int32_t i = 0; i < size(); ++i) out(i) = x(permutation_[i]);
+  return out;
+}
+
+}  // namespace focal
