@@ -1,0 +1,443 @@
+/* focal.h - mark a few points on about ten meshes, learn them, find them on new meshes.
+ *
+ * Rules that hold for every function below
+ *
+ *   Errors     Fallible functions return focal_status. The out_ argument comes last and is written only on
+ * FOCAL_OK. After a failure focal_last_error() says what went wrong, names the object and ends with a hint;
+ *              it is per thread. Getters that return a value or a pointer return 0 or NULL for a bad handle
+ * or index, and set focal_last_error() too. Ownership  focal_X_create/load/train/detect give one handle,
+ * focal_X_destroy takes it back (NULL is fine). Handles may be destroyed in any order: a result keeps what it
+ * needs. A stale, foreign or twice destroyed handle is answered with FOCAL_ERROR_INVALID_HANDLE, never with a
+ * crash. A handle is an opaque tag, not an address. No *_destroy touches focal_last_error(). Lifetime
+ * Returned pointers are borrowed from the handle and live as long as it does. What is passed in is copied
+ * before the call returns. Threads    Handles are immutable once made, so any number of threads may use one
+ * at once. Exceptions: focal_training_set [builder: one thread at a time] and focal_task [any thread, at any
+ * time]. No thread of focal is alive between calls. Strings    UTF-8, NUL-terminated, paths included, on
+ * every platform. Versions   Structs begin with struct_size. Parameters: fill them with *_init(&params,
+ * sizeof params), then change fields; NULL stands for the defaults. A non-zero tail that this library does
+ * not know is FOCAL_ERROR_UNSUPPORTED. Results: call *_init the same way, then the getter fills what fits.
+ *              Reserved fields stay 0.
+ *   Units      Positions, lengths and areas are in the units of the caller's mesh. Vertex and triangle
+ * numbers are those of the caller's mesh, 0-based. Flags are int32_t, 0 or 1. Probabilities lie in 0..1.
+ *   Never      Signal handlers, prints, exit, exceptions across this border, use of the locale. The caller's
+ *              floating-point environment is saved and restored. Files are written whole or not at all.
+ */
+#ifndef FOCAL_H
+#define FOCAL_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifndef FOCAL_API
+#if defined(_WIN32) && defined(FOCAL_BUILD)
+#define FOCAL_API __declspec(dllexport)
+#elif defined(_WIN32)
+#define FOCAL_API __declspec(dllimport)
+#elif defined(__GNUC__)
+#define FOCAL_API __attribute__((visibility("default")))
+#else
+#define FOCAL_API
+#endif
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Version, status, errors ---- */
+
+#define FOCAL_VERSION_MAJOR 0
+#define FOCAL_VERSION_MINOR 1
+#define FOCAL_VERSION_PATCH 0
+
+/* The library's version at run time, major << 16 | minor << 8 | patch, and as text ("0.1.0"). */
+FOCAL_API uint32_t focal_version(void);
+FOCAL_API const char* focal_version_string(void);
+
+typedef int32_t focal_status;
+enum { /* values are never reused */
+       FOCAL_OK = 0,
+       FOCAL_ERROR_INVALID_ARGUMENT = 1, /* NULL, out of range, wrong struct_size */
+       FOCAL_ERROR_INVALID_MESH = 2,     /* no triangles, index out of range, NaN or infinite position */
+       FOCAL_ERROR_INVALID_FILE = 3,     /* damaged, truncated or not what it says */
+       FOCAL_ERROR_IO = 4,               /* reading or writing failed */
+       FOCAL_ERROR_OUT_OF_MEMORY = 5,
+       FOCAL_ERROR_UNSUPPORTED = 6,     /* valid, but this library does not do it */
+       FOCAL_ERROR_NOT_CONVERGED = 7,   /* numerics found no answer on this mesh */
+       FOCAL_ERROR_CANCELLED = 8,       /* focal_task_cancel was called */
+       FOCAL_ERROR_INTERNAL = 9,        /* a mistake of focal: please report */
+       FOCAL_ERROR_INVALID_HANDLE = 10, /* NULL, stale, foreign, of another type, or destroyed twice */
+       FOCAL_ERROR_MESH_TOO_SMALL = 11, /* too few vertices to analyse */
+       FOCAL_ERROR_FILE_NOT_FOUND = 12,
+       FOCAL_ERROR_UNSUPPORTED_VERSION = 13, /* a model file of another version */
+       FOCAL_ERROR_INVALID_LANDMARK = 14,    /* a landmark on a vertex or triangle that does not exist */
+       FOCAL_ERROR_TOO_FEW_SHAPES = 15       /* a landmark marked on fewer than two training meshes */
+};
+
+/* "FOCAL_OK", "FOCAL_ERROR_IO", ...; "FOCAL_ERROR_UNKNOWN" for other numbers. Never NULL. */
+FOCAL_API const char* focal_status_name(focal_status status);
+
+/* The last failure of this thread: "message\nhint: ...", or "" when there was none. Never NULL; valid until
+ * the next failing call of the same thread. Successful calls leave it as it is. */
+FOCAL_API const char* focal_last_error(void);
+
+/* The largest resident memory of this process so far, in bytes; 0 where the system does not tell. */
+FOCAL_API uint64_t focal_peak_memory_bytes(void);
+
+/* ---- Handles ---- */
+
+typedef struct focal_context focal_context;               /* how calls are run: backend, threads, log */
+typedef struct focal_mesh focal_mesh;                     /* a surface, ready to be analysed */
+typedef struct focal_training_set focal_training_set;     /* marked meshes [builder] */
+typedef struct focal_model focal_model;                   /* what training makes */
+typedef struct focal_detection focal_detection;           /* landmarks found on one mesh */
+typedef struct focal_correspondence focal_correspondence; /* reserved: maps between two detected meshes */
+typedef struct focal_skeleton focal_skeleton; /* reserved: joints and skin weights from a detection */
+typedef struct focal_task focal_task;         /* progress and cancellation [any thread] */
+typedef struct focal_blob focal_blob;         /* a block of bytes */
+
+/* ---- Context ---- */
+
+typedef int32_t focal_backend;
+enum { FOCAL_BACKEND_AUTO = 0, FOCAL_BACKEND_CPU = 1, FOCAL_BACKEND_CUDA = 2 };
+
+typedef int32_t focal_log_level;
+enum { FOCAL_LOG_INFO = 0, FOCAL_LOG_WARNING = 1, FOCAL_LOG_ERROR = 2 };
+
+/* Called from inside a focal call, on the calling thread. message is one line, valid during the call. */
+typedef void (*focal_log_fn)(void* user_data, focal_log_level level, const char* message);
+
+/* The host's own parallel loop: call body(body_data, i) once for every i in [0, count), in any order, on any
+ * threads, and return when all have ended. Used instead of focal's threads. body never throws; from inside
+ * it, focal may call the loop again. Results are the same bits whatever it does. */
+typedef void (*focal_parallel_body_fn)(void* body_data, int64_t index);
+typedef void (*focal_parallel_for_fn)(void* user_data, int64_t count, focal_parallel_body_fn body,
+                                      void* body_data);
+
+typedef struct focal_context_params {
+  uint32_t struct_size;
+  focal_backend
+      backend; /* FOCAL_BACKEND_AUTO: the fastest that works. CUDA that does not work: CPU and a reason */
+  int32_t device_index; /* of the GPU, from 0 */
+  int32_t thread_count; /* 0: one a core; at most 1024 */
+  focal_log_fn log;     /* may be NULL */
+  void* log_user_data;
+  focal_parallel_for_fn parallel_for; /* may be NULL: focal starts and joins threads inside each call */
+  void* parallel_for_user_data;
+} focal_context_params;
+
+FOCAL_API focal_status focal_context_params_init(focal_context_params* params, size_t struct_size);
+
+/* Errors: INVALID_ARGUMENT, UNSUPPORTED. */
+FOCAL_API focal_status focal_context_create(const focal_context_params* params, focal_context** out_context);
+FOCAL_API focal_status focal_context_destroy(focal_context* context);
+
+/* The backend in use (never AUTO), why it was chosen in one sentence, and the number of threads a call may
+ * use. */
+FOCAL_API focal_backend focal_context_backend(const focal_context* context);
+FOCAL_API const char* focal_context_backend_reason(const focal_context* context);
+FOCAL_API int32_t focal_context_thread_count(const focal_context* context);
+
+/* ---- Task [any thread] ---- */
+
+/* One for each long call: hand it in, poll or cancel it from any thread. Handing it to a second call while
+ * the first runs is INVALID_ARGUMENT. A cancelled task stays cancelled, so a cancel just before the call
+ * starts is not lost; focal_task_reset makes it fresh again. It may be destroyed while the call runs. */
+FOCAL_API focal_status focal_task_create(focal_task** out_task);
+FOCAL_API focal_status focal_task_destroy(focal_task* task);
+
+/* The call that runs with it returns FOCAL_ERROR_CANCELLED within about 100 ms. */
+FOCAL_API focal_status focal_task_cancel(focal_task* task);
+
+/* Back to progress 0, not cancelled. INVALID_ARGUMENT while a call runs with it. */
+FOCAL_API focal_status focal_task_reset(focal_task* task);
+
+FOCAL_API double focal_task_progress(const focal_task* task); /* 0..1, never falls during a call */
+FOCAL_API const char* focal_task_stage(
+    const focal_task* task); /* "spectrum", ..., "" before; lives for ever */
+FOCAL_API int32_t focal_task_is_cancelled(const focal_task* task); /* 0 or 1 */
+
+/* ---- Blob ---- */
+
+FOCAL_API const void* focal_blob_data(const focal_blob* blob); /* 16-byte aligned; live until destroyed */
+FOCAL_API uint64_t focal_blob_size(const focal_blob* blob);    /* bytes */
+FOCAL_API focal_status focal_blob_destroy(focal_blob* blob);
+
+/* ---- Mesh ---- */
+
+#define FOCAL_NO_VERTEX UINT32_C(0xFFFFFFFF)
+#define FOCAL_NO_TRIANGLE UINT32_C(0xFFFFFFFF)
+
+/* A point of the surface: weights (>= 0, sum 1) of the three corners of a triangle. */
+typedef struct focal_surface_point {
+  uint32_t triangle; /* FOCAL_NO_TRIANGLE: no point */
+  float barycentric[3];
+} focal_surface_point;
+
+typedef struct focal_mesh_params {
+  uint32_t struct_size;
+  int32_t weld;              /* merge vertices of exactly equal position (UV and normal splits). Default 1 */
+  int32_t drop_degenerate;   /* drop triangles with a repeated corner and repeated triangles. Default 1 */
+  int32_t bridge_components; /* link the parts of a many-part character for the analysis. Default 1 */
+  /* The rest concerns glTF files only. */
+  int32_t allow_external_files; /* read .bin files beside a .gltf, inside its folder only. Default 1 */
+  int32_t keep_source_file;     /* keep the file's bytes, so that results can be written into it. Default 1 */
+  uint64_t max_vertices;        /* 1 or more. Default 5,000,000 */
+  uint64_t max_nodes;           /* 1 or more. Default 1,000,000 */
+  uint64_t max_json_bytes;      /* 1 or more. Default 64 MiB */
+  uint64_t max_file_bytes;      /* 1 or more, also for each external file. Default 2 GiB */
+} focal_mesh_params;
+
+FOCAL_API focal_status focal_mesh_params_init(focal_mesh_params* params, size_t struct_size);
+
+/* A mesh in the caller's memory: triangles counter-clockwise seen from outside. */
+typedef struct focal_mesh_desc {
+  uint32_t struct_size;
+  uint32_t
+      position_stride; /* bytes from one vertex to the next; 0 stands for 12; else >= 12, a multiple of 4 */
+  const float* positions; /* x, y, z of each vertex */
+  uint64_t vertex_count;
+  const uint32_t* indices; /* three a triangle */
+  uint64_t index_count;    /* a multiple of 3 */
+} focal_mesh_desc;
+
+FOCAL_API focal_status focal_mesh_desc_init(focal_mesh_desc* desc, size_t struct_size);
+
+/* Each makes a mesh and prepares its surface (welded, cleaned, scaled), about 0.1 s for 100,000 triangles.
+ * params may be NULL. Errors: INVALID_MESH, MESH_TOO_SMALL; from files also FILE_NOT_FOUND, IO, INVALID_FILE,
+ * UNSUPPORTED. A glTF scene (.gltf or .glb) becomes one mesh: all triangle primitives in node order, node
+ * transforms applied, skins at bind pose; vertices and triangles are numbered through in that order. From
+ * memory, external files are refused. */
+FOCAL_API focal_status focal_mesh_create(const focal_context* context, const focal_mesh_desc* desc,
+                                         const focal_mesh_params* params, focal_mesh** out_mesh);
+FOCAL_API focal_status focal_mesh_load_gltf(const focal_context* context, const char* path,
+                                            const focal_mesh_params* params, focal_mesh** out_mesh);
+FOCAL_API focal_status focal_mesh_load_gltf_memory(const focal_context* context, const void* data,
+                                                   uint64_t size, const focal_mesh_params* params,
+                                                   focal_mesh** out_mesh);
+FOCAL_API focal_status focal_mesh_destroy(focal_mesh* mesh);
+
+typedef struct focal_mesh_info {
+  uint32_t struct_size;
+  uint32_t warning_count;        /* focal_mesh_warning */
+  uint64_t vertex_count;         /* the caller's */
+  uint64_t triangle_count;       /* the caller's */
+  uint64_t surface_vertex_count; /* of the surface that is analysed: welded and cleaned */
+  uint64_t surface_triangle_count;
+  double mean_edge_length; /* of the surface, over its undirected edges */
+  double surface_area;     /* of the surface */
+  double load_seconds;     /* reading and decoding */
+  double repair_seconds;   /* weld, clean, scale */
+} focal_mesh_info;
+
+FOCAL_API focal_status focal_mesh_info_init(focal_mesh_info* info, size_t struct_size);
+FOCAL_API focal_status focal_mesh_get_info(const focal_mesh* mesh, focal_mesh_info* out_info);
+
+FOCAL_API const float* focal_mesh_positions(const focal_mesh* mesh);    /* vertex_count x 3, row-major */
+FOCAL_API const uint32_t* focal_mesh_triangles(const focal_mesh* mesh); /* triangle_count x 3, row-major */
+
+/* A plain sentence on what was found and done; index below warning_count. */
+FOCAL_API const char* focal_mesh_warning(const focal_mesh* mesh, uint32_t index);
+
+/* Where a surface point lies (out_position: 3 floats), and the surface point at a vertex. Errors:
+ * INVALID_LANDMARK when the triangle or vertex does not exist, or no triangle uses the vertex. */
+FOCAL_API focal_status focal_mesh_position_of(const focal_mesh* mesh, const focal_surface_point* point,
+                                              float* out_position);
+FOCAL_API focal_status focal_mesh_point_at_vertex(const focal_mesh* mesh, uint32_t vertex,
+                                                  focal_surface_point* out_point);
+
+/* ---- Training set [builder] ---- */
+
+/* landmark_names: landmark_count (1..4096) different, non-empty names; every mesh is then marked in this
+ * order. */
+FOCAL_API focal_status focal_training_set_create(const focal_context* context,
+                                                 const char* const* landmark_names, uint64_t landmark_count,
+                                                 focal_training_set** out_set);
+FOCAL_API focal_status focal_training_set_destroy(focal_training_set* set);
+
+/* Adds a mesh with its marks, landmark_count of them, as surface points (triangle FOCAL_NO_TRIANGLE: absent
+ * on this mesh) or as vertices (FOCAL_NO_VERTEX: absent). Weights are scaled to sum 1. The set stays as it
+ * was on error: INVALID_LANDMARK (no such triangle or vertex, negative or zero weights, a triangle that was
+ * dropped as degenerate), INVALID_ARGUMENT (another landmark_count than the set's). */
+FOCAL_API focal_status focal_training_set_add(focal_training_set* set, const focal_mesh* mesh,
+                                              const focal_surface_point* landmarks, uint64_t landmark_count);
+FOCAL_API focal_status focal_training_set_add_vertices(focal_training_set* set, const focal_mesh* mesh,
+                                                       const uint32_t* vertices, uint64_t landmark_count);
+
+FOCAL_API uint64_t focal_training_set_landmark_count(const focal_training_set* set);
+FOCAL_API uint64_t focal_training_set_mesh_count(const focal_training_set* set);
+
+/* ---- Model ---- */
+
+typedef int32_t focal_preset;
+enum {
+  FOCAL_PRESET_DEFAULT = 0, /* what measures best */
+  FOCAL_PRESET_PAPER = 1    /* Xia et al. 2016 to the letter */
+};
+
+typedef struct focal_train_params {
+  uint32_t struct_size;
+  focal_preset preset;           /* which method; kept in the model, detection follows it */
+  int32_t eigenpair_count;       /* of the Laplacian, 8..2000; fewer on tiny meshes. Default 200 */
+  int32_t tree_count;            /* a forest, 1..10000. Default 30 */
+  int32_t min_leaf_samples;      /* 1 or more. Default 5 */
+  int32_t components_per_split;  /* random descriptor components tried at each split, 1 or more. Default 5 */
+  double sampling_rate;          /* of the vertices of each training mesh, above 0 to 1. Default 0.5 */
+  int32_t max_samples_per_shape; /* 1 or more. Default 6250 */
+  int32_t reserved;
+  uint64_t seed; /* same seed, same bits. Default 0 */
+} focal_train_params;
+
+/* init fills the default preset; set_preset refills every field with the values of one preset. */
+FOCAL_API focal_status focal_train_params_init(focal_train_params* params, size_t struct_size);
+FOCAL_API focal_status focal_train_params_set_preset(focal_train_params* params, focal_preset preset);
+
+/* Learns a model; seconds to minutes. params and task may be NULL. Errors: TOO_FEW_SHAPES (a landmark is
+ * marked on fewer than two meshes), CANCELLED, NOT_CONVERGED. A model contains geometry of its training
+ * meshes. */
+FOCAL_API focal_status focal_model_train(const focal_training_set* set, const focal_train_params* params,
+                                         focal_task* task, focal_model** out_model);
+
+/* Errors: FILE_NOT_FOUND, IO, INVALID_FILE (with the section that is damaged), UNSUPPORTED_VERSION. */
+FOCAL_API focal_status focal_model_load(const focal_context* context, const char* path,
+                                        focal_model** out_model);
+FOCAL_API focal_status focal_model_load_memory(const focal_context* context, const void* data, uint64_t size,
+                                               focal_model** out_model);
+FOCAL_API focal_status focal_model_save(const focal_model* model, const char* path);
+FOCAL_API focal_status focal_model_save_memory(const focal_model* model, focal_blob** out_blob);
+FOCAL_API focal_status focal_model_destroy(focal_model* model);
+
+typedef struct focal_model_info {
+  uint32_t struct_size;
+  focal_preset preset;
+  uint32_t landmark_count;
+  uint32_t shape_count;       /* training meshes */
+  uint64_t mean_vertex_count; /* of the training surfaces */
+  uint64_t sample_count;      /* training samples of all meshes */
+  uint64_t tree_node_count;   /* of all trees */
+  uint64_t file_bytes;        /* size of the model's file */
+} focal_model_info;
+
+FOCAL_API focal_status focal_model_info_init(focal_model_info* info, size_t struct_size);
+FOCAL_API focal_status focal_model_get_info(const focal_model* model, focal_model_info* out_info);
+
+/* The parameters it was trained with. out_params must have been through focal_train_params_init. */
+FOCAL_API focal_status focal_model_get_train_params(const focal_model* model, focal_train_params* out_params);
+
+/* index below landmark_count. */
+FOCAL_API const char* focal_model_landmark_name(const focal_model* model, uint32_t index);
+
+/* ---- Detection ---- */
+
+typedef int32_t focal_quality;
+enum {
+  FOCAL_QUALITY_BEST = 0,       /* with the slower refinements */
+  FOCAL_QUALITY_INTERACTIVE = 1 /* for a viewport */
+};
+
+typedef struct focal_detect_params {
+  uint32_t struct_size;
+  focal_quality quality;      /* default FOCAL_QUALITY_BEST */
+  double sampling_rate;       /* of the vertices, above 0 to 1. Default 0.1 */
+  int32_t max_samples;        /* 1 or more. Default 1250 */
+  int32_t peaks_per_landmark; /* candidates among which the constellation chooses, 1..64. Default 8 */
+  double found_confidence;    /* below it: FOCAL_LANDMARK_UNCERTAIN. 0..1, default 0.5 */
+  double absent_confidence;   /* below it: FOCAL_LANDMARK_ABSENT. 0..found_confidence, default 0.05 */
+  int32_t keep_votes;         /* keep the vote maps in the detection. Default 1 */
+  int32_t reserved;
+  uint64_t seed; /* same seed, same bits. Default 1 */
+} focal_detect_params;
+
+FOCAL_API focal_status focal_detect_params_init(focal_detect_params* params, size_t struct_size);
+
+/* Finds the model's landmarks on a mesh. params and task may be NULL; runs in the model's context. Errors:
+ * CANCELLED, NOT_CONVERGED. The detection keeps mesh and model alive. */
+FOCAL_API focal_status focal_model_detect(const focal_model* model, const focal_mesh* mesh,
+                                          const focal_detect_params* params, focal_task* task,
+                                          focal_detection** out_detection);
+FOCAL_API focal_status focal_detection_destroy(focal_detection* detection);
+
+typedef int32_t focal_landmark_status;
+enum { FOCAL_LANDMARK_FOUND = 0, FOCAL_LANDMARK_UNCERTAIN = 1, FOCAL_LANDMARK_ABSENT = 2 };
+
+typedef struct focal_landmark {
+  uint32_t struct_size;
+  focal_landmark_status status;
+  const char* name;            /* lives as long as the detection */
+  double confidence;           /* probability of lying within 4 % of sqrt(area) of the truth */
+  double expected_error;       /* a length, in the mesh's units */
+  double runner_up_confidence; /* the runner_up fields hold the second-best place, when there is one */
+  focal_surface_point point;   /* FOCAL_NO_TRIANGLE: no place at all; then position and vertex hold nothing */
+  float position[3];
+  uint32_t vertex; /* the caller's vertex nearest to it */
+  focal_surface_point runner_up_point;
+  float runner_up_position[3];
+  uint32_t runner_up_vertex;
+  int32_t has_runner_up;
+  uint32_t reserved;
+} focal_landmark;
+
+FOCAL_API focal_status focal_landmark_init(focal_landmark* landmark, size_t struct_size);
+
+/* Landmarks come in the order of the model's names; INVALID_ARGUMENT for an index past the last. */
+FOCAL_API uint32_t focal_detection_landmark_count(const focal_detection* detection);
+FOCAL_API focal_status focal_detection_get_landmark(const focal_detection* detection, uint32_t index,
+                                                    focal_landmark* out_landmark);
+
+typedef struct focal_detection_info {
+  uint32_t struct_size;
+  uint32_t landmark_count;
+  uint32_t warning_count; /* focal_detection_warning; the mesh's own warnings come first */
+  int32_t has_votes;
+  uint64_t vertex_count;   /* of the caller's mesh */
+  uint64_t triangle_count; /* of the caller's mesh */
+  double category_fit;     /* 0..1: does this mesh belong to the model's category at all */
+  focal_backend backend;   /* that did the work */
+  uint32_t reserved;
+} focal_detection_info;
+
+FOCAL_API focal_status focal_detection_info_init(focal_detection_info* info, size_t struct_size);
+FOCAL_API focal_status focal_detection_get_info(const focal_detection* detection,
+                                                focal_detection_info* out_info);
+
+/* Wall time of each stage in seconds; load and repair are the mesh's. total is the sum. */
+typedef struct focal_stage_seconds {
+  uint32_t struct_size;
+  uint32_t reserved;
+  double load;
+  double repair;
+  double proxy;
+  double spectrum;
+  double descriptors;
+  double geodesics;
+  double forest;
+  double vote;
+  double constellation;
+  double refine;
+  double total;
+} focal_stage_seconds;
+
+FOCAL_API focal_status focal_stage_seconds_init(focal_stage_seconds* seconds, size_t struct_size);
+FOCAL_API focal_status focal_detection_get_seconds(const focal_detection* detection,
+                                                   focal_stage_seconds* out_seconds);
+
+FOCAL_API const char* focal_detection_warning(const focal_detection* detection, uint32_t index);
+
+/* The vote map of one landmark, a value in 0..1 for each of the caller's vertices (0 where no triangle uses
+ * the vertex); the largest is 1. vertex_count must be the mesh's. UNSUPPORTED when votes were not kept. */
+FOCAL_API focal_status focal_detection_votes(const focal_detection* detection, uint32_t index,
+                                             uint64_t vertex_count, float* out_votes);
+
+/* Writes the caller's own glTF, nothing lost, plus a node for each landmark that is not absent and
+ * mesh.extras.focal. A .gltf path writes JSON, any other a .glb. UNSUPPORTED when the mesh's file was not
+ * kept and cannot be made. */
+FOCAL_API focal_status focal_detection_write_gltf(const focal_detection* detection, const char* path);
+
+/* Writes a .glb of the surface with the vote maps as vertex colours, to look at. UNSUPPORTED without votes.
+ */
+FOCAL_API focal_status focal_detection_write_votes_gltf(const focal_detection* detection, const char* path);
+
+#ifdef __cplusplus
+}
+#endif
+#endif /* FOCAL_H */
