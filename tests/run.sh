@@ -1,0 +1,8 @@
+#!/bin/sh
+# Installs what is missing, builds with warnings as errors and runs every test. Arguments go to ctest.
+set -eu
+cd "$(dirname "$0")/.."
+.ci/bootstrap.sh test
+cmake --preset release -DFOCAL_WERROR=ON --log-level=NOTICE
+cmake --build --preset release
+ctest --preset release --parallel "$(nproc)" "$@"
