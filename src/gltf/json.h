@@ -1,0 +1,43 @@
+// JSON from untrusted bytes, held so that neither depth nor a failing allocation can end the process.
+//
+// nlohmann::json is used through its SAX parser, which is iterative, with the limits checked on every event.
+// Its destructor allocates inside noexcept to flatten nested values; a JsonDocument takes its tree apart from
+// the leaves instead, which needs no memory.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <utility>
+
+namespace focal {
+
+struct JsonLimits {
+  int32_t depth = 64;
+  int64_t values = 8'000'000;
+};
+
+template <class Json>
+class BasicJsonDocument {
+ public:
+  // Throws invalid_file (syntax, UTF-8, a key given twice), unsupported (a limit exceeded).
+  BasicJsonDocument(std::span<const std::byte> text, const JsonLimits& limits);
+  BasicJsonDocument(BasicJsonDocument&& other) noexcept : root_(std::move(other.root_)) {}
+  BasicJsonDocument& operator=(BasicJsonDocument&&) = delete;
+  ~BasicJsonDocument() { dismantle(root_); }
+
+  Json& root() { return root_; }
+  const Json& root() const { return root_; }
+
+ private:
+  // Recursive, which the depth limit makes safe.
+  static void dismantle(Json& value) noexcept;
+
+  Json root_;
+};
+
+using JsonDocument = BasicJsonDocument<nlohmann::json>;
+using OrderedJsonDocument =
+    BasicJsonDocument<nlohmann::ordered_json>;  // keeps the order of keys, for writing
+
+}  // namespace focal

@@ -1,0 +1,21 @@
+// Small helpers for text out of untrusted files.
+#pragma once
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace focal {
+
+// Text for a message: printable ASCII, at most 200 characters.
+std::string printable(std::string_view text);
+
+// Percent escapes resolved; nothing when one is malformed.
+std::optional<std::string> percent_decoded(std::string_view uri);
+
+// Bytes of the base64 payload of a "data:...;base64,..." URI; nothing when malformed. RFC 2397, RFC 4648.
+std::optional<std::vector<std::byte>> data_uri_bytes(std::string_view uri);
+bool is_data_uri(std::string_view uri);
+
+}  // namespace focal
