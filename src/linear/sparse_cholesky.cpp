@@ -123,20 +123,17 @@ void SparseCholesky::solve_block(float* X) const {
               {columns_.start.data(), columns_.index.data(), columns_.value_f.data(), d, size()}, X);
 }
 
+// Here each solved row is scattered to the rows that need it: gathering a single side would chain its subtractions.
 Vector SparseCholesky::solve(const Vector& b) const {
   Vector x(size());
   for (int32_t i = 0; i < size(); ++i) x(permutation_[i]) = b(i);
-  for (int32_t i = 0; i < size(); ++i) {
-    double sum = x(i);
-    for (int64_t p = rows_.start[i]; p < rows_.start[i + 1]; ++p) sum -= rows_.value[p] * x(rows_.index[p]);
-    x(i) = sum * inverse_diagonal_[i];
-  }
-  for (int32_t i = size() - 1; i >= 0; --i) {
-    double sum = x(i);
-    for (int64_t p = columns_.start[i]; p < columns_.start[i + 1]; ++p)
-      sum -= columns_.value[p] * x(columns_.index[p]);
-    x(i) = sum * inverse_diagonal_[i];
-  }
+  const auto finish_row = [&](const Rows& needed_by, int32_t i) {
+    const double solved = x(i) *= inverse_diagonal_[i];
+    for (int64_t p = needed_by.start[i]; p < needed_by.start[i + 1]; ++p)
+      x(needed_by.index[p]) -= needed_by.value[p] * solved;
+  };
+  for (int32_t i = 0; i < size(); ++i) finish_row(columns_, i);
+  for (int32_t i = size() - 1; i >= 0; --i) finish_row(rows_, i);
   Vector out(size());
   for (int32_t i = 0; i < size(); ++i) out(i) = x(permutation_[i]);
   return out;

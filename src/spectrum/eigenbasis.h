@@ -13,9 +13,9 @@ struct Eigenbasis {
 enum class EigenMethod { spectra, chebyshev };
 
 struct EigenParams {
-  int32_t count = 200;                              // clamped to n - 2
+  int32_t count = 200;  // clamped to n - 2
   EigenMethod method = EigenMethod::spectra;
-  double tolerance = 1e-8;                          // relative residual
+  double tolerance = 1e-8;  // relative residual
 };
 
 // L: n x n symmetric positive semi-definite; mass: n, > 0 (the diagonal of M). Throws not_converged, cancelled.

@@ -1,0 +1,55 @@
+// The generalised problem is turned into an ordinary one, A = M^-1/2 L M^-1/2, solved, and turned back.
+#include "spectrum/eigenbasis.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <numbers>
+
+#include "base/error.h"
+#include "spectrum/eigensolvers.h"
+
+namespace focal {
+namespace {
+
+// Eigenvectors have no sign of their own: make the entry of largest magnitude positive.
+void fix_signs(Matrix& Phi) {
+  for (Eigen::Index j = 0; j < Phi.cols(); ++j) {
+    Eigen::Index largest;
+    Phi.col(j).cwiseAbs().maxCoeff(&largest);
+    if (Phi(largest, j) < 0) Phi.col(j) = -Phi.col(j);
+  }
+}
+
+// A tenth of Weyl's law, lambda_k = 4 pi k / area, for the last wanted pair.
+double eigenvalue_scale(double area, int32_t count) { return 0.4 * std::numbers::pi * count / area; }
+
+}  // namespace
+
+Eigenbasis dense_eigenpairs(const StandardProblem& problem) {
+  const Eigen::SelfAdjointEigenSolver<Matrix> solver{Matrix(problem.A)};
+  if (solver.info() != Eigen::Success)
+    throw Error(Status::not_converged, "the eigenvalues of the surface did not converge",
+                "the mesh may hold non-finite positions or degenerate triangles; repair it first");
+  return {solver.eigenvalues().head(problem.count), solver.eigenvectors().leftCols(problem.count)};
+}
+
+Eigenbasis eigenbasis(const SparseMatrix& L, const Vector& mass, const EigenParams& params,
+                      const Execution& execution) {
+  const auto n = static_cast<int32_t>(L.rows());
+  if (n < 3) throw Error(Status::mesh_too_small, "a spectrum needs at least 3 vertices", "use a larger mesh");
+  execution.check_cancelled();
+  const int32_t count = std::clamp(params.count, 1, n - 2);
+  const Vector inverse_root_mass = mass.cwiseSqrt().cwiseInverse();
+  const StandardProblem problem{inverse_root_mass.asDiagonal() * L * inverse_root_mass.asDiagonal(),
+                                eigenvalue_scale(mass.sum(), count), count, params.tolerance};
+  Eigenbasis basis = n < std::max(3 * count, 256)              ? dense_eigenpairs(problem)
+                     : params.method == EigenMethod::chebyshev ? chebyshev_eigenpairs(problem, execution)
+                                                               : lanczos_eigenpairs(problem, execution);
+  basis.lambda = basis.lambda.cwiseMax(0);
+  basis.Phi = inverse_root_mass.asDiagonal() * basis.Phi;
+  fix_signs(basis.Phi);
+  execution.report(1);
+  return basis;
+}
+
+}  // namespace focal
