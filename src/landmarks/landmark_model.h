@@ -21,4 +21,6 @@ struct ModelInfo {
   int64_t tree_node_count = 0;
 };
 
+ModelInfo info_of(const LandmarkModel& model);
+
 }  // namespace focal

@@ -1,0 +1,223 @@
+#include "constellation/constellation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "base/multiversion.h"
+#include "base/random.h"
+
+namespace focal {
+namespace {
+
+constexpr float pair_clip = 8, handedness_clip = 4;
+
+// sum over b of min((x y_b - y x_b - mean_b)^2 / (2 sd_b^2), clip); inverse = 1 / (sd sqrt 2).
+FOCAL_INLINE float handedness_body(float x, float y, const float* xs, const float* ys, const float* mean,
+                                   const float* inverse, int32_t count) {
+  constexpr int width = 16;  // fixed, so that every vector width adds in the same order
+  float part[width] = {};
+  for (int32_t b = 0; b < count; b += width)  // arrays are padded with inverse = 0
+    for (int k = 0; k < width; ++k) {
+      const float z = (x * ys[b + k] - y * xs[b + k] - mean[b + k]) * inverse[b + k];
+      part[k] += std::min(z * z, handedness_clip);
+    }
+  float sum = 0;
+  for (const float p : part) sum += p;
+  return sum;
+}
+FOCAL_MULTIVERSION(float handedness_cost(float x, float y, const float* xs, const float* ys, const float* mean,
+                                         const float* inverse, int32_t count),
+                   return handedness_body(x, y, xs, ys, mean, inverse, count);)
+
+// Statistics laid out for the inner loop: rows padded to a multiple of 16, inverse deviations, zero where two of the
+// three landmarks are the same.
+struct Tables {
+  int32_t L, padded;
+  std::vector<float> mean, inverse;  // [c][a][padded b]
+  RowMatrixf distance_mean, distance_inverse;
+
+  explicit Tables(const ConstellationStatistics& s) : L(s.landmarks), padded((s.landmarks + 15) / 16 * 16) {
+    mean.assign(static_cast<size_t>(L) * L * padded, 0);
+    inverse = mean;
+    for (int32_t c = 0; c < L; ++c)
+      for (int32_t a = 0; a < L; ++a)
+        for (int32_t b = 0; b < L; ++b) {
+          if (c == a || c == b || a == b) continue;
+          mean[row(c, a) + b] = s.handedness_mean[s.index(c, a, b)];
+          inverse[row(c, a) + b] = std::sqrt(0.5f) / s.handedness_sd[s.index(c, a, b)];
+        }
+    distance_mean = s.distance_mean;
+    distance_inverse = std::sqrt(0.5f) * s.distance_sd.cwiseInverse();
+    distance_inverse.diagonal().setZero();
+  }
+  size_t row(int32_t c, int32_t a) const { return (static_cast<size_t>(c) * L + a) * padded; }
+};
+
+// One descent: the chosen candidate of every landmark, and the ways from each chosen one to all chosen ones.
+class Descent {
+ public:
+  Descent(const Tables& tables, const ConstellationCandidates& candidates, const ConstellationParams& params)
+      : t_(tables), c_(candidates), chosen_(tables.L, -1), xs_(RowMatrixf::Zero(tables.L, tables.padded)),
+        ys_(xs_), row_x_(tables.padded), row_y_(tables.padded) {
+    const double others = std::max(1, t_.L - 1);
+    unary_ = static_cast<float>(params.unary_weight);
+    pair_ = static_cast<float>(params.pair_weight / others);
+    handedness_ = static_cast<float>(2 * params.handedness_weight / (others * std::max(1, t_.L - 2)));
+  }
+
+  void choose(int32_t l, int32_t candidate) {
+    chosen_[l] = candidate;
+    for (int32_t o = 0; o < t_.L; ++o) {
+      if (chosen_[o] < 0) continue;
+      xs_(o, l) = c_.directions.x(chosen_[o], candidate), ys_(o, l) = c_.directions.y(chosen_[o], candidate);
+      xs_(l, o) = c_.directions.x(candidate, chosen_[o]), ys_(l, o) = c_.directions.y(candidate, chosen_[o]);
+    }
+  }
+
+  // Everything of the energy that depends on where landmark l lies.
+  float cost(int32_t l, int32_t candidate) {
+    float pairs = 0, triples = 0;
+    for (int32_t o = 0; o < t_.L; ++o)
+      row_x_[o] = row_y_[o] = 0;
+    for (int32_t o = 0; o < t_.L; ++o) {
+      if (o == l || chosen_[o] < 0) continue;
+      row_x_[o] = c_.directions.x(candidate, chosen_[o]), row_y_[o] = c_.directions.y(candidate, chosen_[o]);
+      pairs += pair_cost(l, candidate, o);
+    }
+    for (int32_t o = 0; o < t_.L; ++o) {
+      if (o == l || chosen_[o] < 0) continue;
+      // At l, from o round to every b (each pair counted twice: halved); at o, from l round to every b.
+      const size_t at_l = t_.row(l, o), at_o = t_.row(o, l);
+      triples += 0.5f * handedness_cost(row_x_[o], row_y_[o], row_x_.data(), row_y_.data(), &t_.mean[at_l],
+                                        &t_.inverse[at_l], t_.padded);
+      triples += handedness_cost(c_.directions.x(chosen_[o], candidate), c_.directions.y(chosen_[o], candidate),
+                                 &xs_(o, 0), &ys_(o, 0), &t_.mean[at_o], &t_.inverse[at_o], t_.padded);
+    }
+    return unary_ * c_.unary[candidate] + pair_ * pairs + handedness_ * triples;
+  }
+
+  void run(Random& random) {
+    std::vector<int32_t> order(t_.L);
+    std::iota(order.begin(), order.end(), 0);
+    for (bool moved = true; moved;) {
+      moved = false;
+      for (int32_t i = t_.L - 1; i > 0; --i) std::swap(order[i], order[random.below(i + 1)]);
+      for (const int32_t l : order) moved = improve(l) || moved;
+    }
+  }
+
+  double energy() {  // each term once
+    double sum = 0;
+    for (int32_t l = 0; l < t_.L; ++l) {
+      if (chosen_[l] < 0) continue;
+      sum += unary_ * c_.unary[chosen_[l]];
+      for (int32_t o = 0; o < t_.L; ++o) {
+        if (o == l || chosen_[o] < 0) continue;
+        if (o < l) sum += pair_ * pair_cost(l, chosen_[l], o);
+        sum += 0.5 * handedness_ * handedness_cost(xs_(l, o), ys_(l, o), &xs_(l, 0), &ys_(l, 0),
+                                                   &t_.mean[t_.row(l, o)], &t_.inverse[t_.row(l, o)], t_.padded);
+      }
+    }
+    return sum;
+  }
+
+  float residual(int32_t l) const {
+    float sum = 0;
+    int32_t count = 0;
+    for (int32_t o = 0; o < t_.L; ++o)
+      if (o != l && chosen_[o] >= 0 && chosen_[l] >= 0) sum += pair_cost(l, chosen_[l], o), ++count;
+    return count ? sum / static_cast<float>(count) : 0;
+  }
+  const std::vector<int32_t>& chosen() const { return chosen_; }
+
+ private:
+  float pair_cost(int32_t l, int32_t candidate, int32_t o) const {
+    const float z = (c_.distance(candidate, chosen_[o]) - t_.distance_mean(l, o)) * t_.distance_inverse(l, o);
+    return std::min(z * z, pair_clip);
+  }
+
+  bool improve(int32_t l) {
+    const int32_t current = chosen_[l];
+    if (current < 0) return false;
+    float best = cost(l, current) - 1e-5f;  // a move must gain more than rounding
+    int32_t best_candidate = current;
+    for (int32_t k = c_.start[l]; k < c_.start[l + 1]; ++k) {
+      if (k == current) continue;
+      const float next = cost(l, k);
+      if (next < best) best = next, best_candidate = k;
+    }
+    if (best_candidate == current) return false;
+    choose(l, best_candidate);
+    return true;
+  }
+
+  const Tables& t_;
+  const ConstellationCandidates& c_;
+  float unary_, pair_, handedness_;
+  std::vector<int32_t> chosen_;
+  RowMatrixf xs_, ys_;              // [at l][to o], chosen ones only
+  std::vector<float> row_x_, row_y_;
+};
+
+}  // namespace
+
+ConstellationChoice choose_constellation(const ConstellationStatistics& statistics,
+                                         const ConstellationCandidates& candidates,
+                                         const ConstellationParams& params, const Execution& execution) {
+  const Tables tables(statistics);
+  std::vector<ConstellationChoice> results(params.restarts);
+  parallel_for(execution, params.restarts, [&](int64_t r) {
+    Random random(params.seed, 2000 + r);
+    Descent descent(tables, candidates, params);
+    for (int32_t l = 0; l < tables.L; ++l) {
+      const int32_t options = candidates.start[l + 1] - candidates.start[l];
+      if (options > 0) descent.choose(l, candidates.start[l] + static_cast<int32_t>(r ? random.below(options) : 0));
+    }
+    descent.run(random);
+    results[r].energy = descent.energy();
+    results[r].candidate = descent.chosen();
+    for (int32_t l = 0; l < tables.L; ++l) results[r].residual.push_back(descent.residual(l));
+  });
+  return *std::min_element(results.begin(), results.end(),
+                           [](const auto& a, const auto& b) { return a.energy < b.energy; });
+}
+
+ConstellationStatistics learn_constellation(std::span<const ConstellationSample> samples, int32_t landmarks) {
+  constexpr float distance_floor = 0.02f, handedness_floor = 0.15f;  // what few shapes cannot show
+  ConstellationStatistics result;
+  result.landmarks = landmarks;
+  result.distance_mean = RowMatrixf::Zero(landmarks, landmarks);
+  result.distance_sd = RowMatrixf::Constant(landmarks, landmarks, 1e3f);  // never seen together: says nothing
+  const size_t triples = static_cast<size_t>(landmarks) * landmarks * landmarks;
+  result.handedness_mean.assign(triples, 0);
+  result.handedness_sd.assign(triples, 1e3f);
+  const auto moments = [&](const auto& present, const auto& value, float floor, float& mean, float& sd) {
+    double sum = 0, squares = 0;
+    int32_t count = 0;
+    for (const auto& sample : samples)
+      if (present(sample)) {
+        const double x = value(sample);
+        sum += x, squares += x * x, ++count;
+      }
+    if (!count) return;
+    mean = static_cast<float>(sum / count);
+    sd = std::max(floor, static_cast<float>(std::sqrt(std::max(0.0, squares / count - std::pow(sum / count, 2)))));
+  };
+  for (int32_t c = 0; c < landmarks; ++c)
+    for (int32_t a = 0; a < landmarks; ++a) {
+      if (c == a) continue;
+      moments([&](const auto& s) { return s.present[c] && s.present[a]; },
+              [&](const auto& s) { return (s.distance(c, a) + s.distance(a, c)) / 2; }, distance_floor,
+              result.distance_mean(c, a), result.distance_sd(c, a));
+      for (int32_t b = 0; b < landmarks; ++b)
+        if (b != a && b != c)
+          moments([&](const auto& s) { return s.present[c] && s.present[a] && s.present[b]; },
+                  [&](const auto& s) { return s.directions.handedness(c, a, b); }, handedness_floor,
+                  result.handedness_mean[result.index(c, a, b)], result.handedness_sd[result.index(c, a, b)]);
+    }
+  return result;
+}
+
+}  // namespace focal

@@ -1,0 +1,205 @@
+#include "geodesics/heat_method.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <new>
+#include <numeric>
+#include <queue>
+
+#include "base/error.h"
+#include "base/multiversion.h"
+
+namespace focal {
+namespace {
+
+constexpr int lanes = HeatMethod::lanes;
+
+// Heat falls off like exp(-d / sqrt(t)); a double holds about exp(-700).
+constexpr double representable_decay = 650;
+
+// Scratch memory of one block, aligned for the widest vectors. Never shared, so it needs no lock.
+template <class T>
+class AlignedArray {
+ public:
+  explicit AlignedArray(size_t count)
+      : data_(static_cast<T*>(::operator new(std::max<size_t>(count, 1) * sizeof(T), std::align_val_t(64)))) {}
+  ~AlignedArray() { ::operator delete(data_, std::align_val_t(64)); }
+  AlignedArray(const AlignedArray&) = delete;
+  AlignedArray& operator=(const AlignedArray&) = delete;
+  T* data() { return data_; }
+
+ private:
+  T* data_;
+};
+
+// An upper bound of the largest distance: twice the farthest edge path from one vertex (Dijkstra over L's graph).
+double diameter_bound(const TriangleMesh& mesh, const SparseMatrix& L) {
+  std::vector<double> distance(mesh.vertex_count(), std::numeric_limits<double>::infinity());
+  using Entry = std::pair<double, int32_t>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  queue.emplace(distance[0] = 0, 0);
+  double farthest = 0;
+  while (!queue.empty()) {
+    const auto [d, v] = queue.top();
+    queue.pop();
+    if (d > distance[v]) continue;
+    farthest = d;
+    for (SparseMatrix::InnerIterator it(L, v); it; ++it) {
+      const double next = d + (mesh.positions.row(v) - mesh.positions.row(it.row())).norm();
+      if (next < distance[it.row()]) queue.emplace(distance[it.row()] = next, static_cast<int32_t>(it.row()));
+    }
+  }
+  return 2 * farthest;
+}
+
+SparseMatrix plus_diagonal(SparseMatrix A, const Vector& diagonal) {
+  for (int32_t i = 0; i < A.rows(); ++i) A.coeffRef(i, i) += diagonal[i];
+  return A;
+}
+
+// Right-hand side of the Poisson equation for one triangle and all lanes. With u the heat, L_f the triangle's Laplacian
+// and g the gradient, X = -g / |g| has integrated divergence L_f u / |g| at the corners, so no 3D vector is formed; and
+// |g|^2 = u^T L_f u / area. u is first divided by its largest corner, which keeps tiny heat far away exact.
+FOCAL_INLINE void face_body(const double* u0, const double* u1, const double* u2, const float* coefficient, float* b0,
+                            float* b1, float* b2) {
+  const float c0 = coefficient[0], c1 = coefficient[1], c2 = coefficient[2], area = coefficient[3];
+  for (int j = 0; j < lanes; ++j) {
+    const double largest = std::max(std::max(u0[j], u1[j]), u2[j]);
+    const double scale = largest > 1e-290 ? 1 / largest : 0;
+    const auto d0 = static_cast<float>((u1[j] - u2[j]) * scale);
+    const auto d1 = static_cast<float>((u2[j] - u0[j]) * scale);
+    const auto d2 = static_cast<float>((u0[j] - u1[j]) * scale);
+    const float energy = c0 * d0 * d0 + c1 * d1 * d1 + c2 * d2 * d2;  // u^T L_f u
+    const float weight = std::sqrt(area / std::max(energy, 1e-30f));
+    const float f0 = weight * c0 * d0, f1 = weight * c1 * d1, f2 = weight * c2 * d2;
+    b0[j] += f1 - f2;
+    b1[j] += f2 - f0;
+    b2[j] += f0 - f1;
+  }
+}
+FOCAL_MULTIVERSION(void add_face(const double* u0, const double* u1, const double* u2, const float* coefficient,
+                                 float* b0, float* b1, float* b2),
+                   face_body(u0, u1, u2, coefficient, b0, b1, b2);)
+
+}  // namespace
+
+HeatMethod::HeatMethod(const TriangleMesh& mesh, const Operators& operators, double time_factor) {
+  const double step = std::sqrt(time_factor) * operators.mean_edge;
+  const double smallest = diameter_bound(mesh, operators.L) / representable_decay;
+  time_was_raised_ = smallest > step;
+  time_ = std::pow(std::max(step, smallest), 2);
+  heat_ = SparseCholesky(plus_diagonal(time_ * operators.L, operators.mass));
+  poisson_ = SparseCholesky(plus_diagonal(operators.L, 1e-9 / operators.area * operators.mass));
+  const auto& permutation = heat_.permutation();
+  if (permutation != poisson_.permutation())
+    throw Error(Status::internal, "the two factors of the heat method are ordered differently", "report this");
+
+  const int32_t m = mesh.triangle_count();
+  triangles_ = mesh.triangles;
+  faces_.resize(m, 3);
+  face_coefficient_.resize(m, 4);
+  std::vector<std::pair<int32_t, int32_t>> order(m);  // by smallest permuted corner
+  for (int32_t t = 0; t < m; ++t)
+    order[t] = {std::min({permutation[mesh.triangles(t, 0)], permutation[mesh.triangles(t, 1)],
+                          permutation[mesh.triangles(t, 2)]}),
+                t};
+  std::sort(order.begin(), order.end());
+  for (int32_t f = 0; f < m; ++f) {
+    const int32_t t = order[f].second;
+    for (int i = 0; i < 3; ++i) {
+      faces_(f, i) = permutation[mesh.triangles(t, i)];
+      face_coefficient_(f, i) = static_cast<float>(operators.half_cotangent(t, i));
+    }
+    face_coefficient_(f, 3) = static_cast<float>(operators.face_area[t]);
+  }
+}
+
+void HeatMethod::solve_block(std::span<const Source> sources, double* heat, float* distance, float* out) const {
+  const int32_t n = vertex_count();
+  const size_t size = static_cast<size_t>(n) * lanes;
+  const auto& row = heat_.permutation();
+  std::fill(heat, heat + size, 0.0);
+  for (int j = 0; j < lanes; ++j) {
+    const Source& source = sources[std::min<size_t>(j, sources.size() - 1)];  // unused lanes repeat the last
+    for (int i = 0; i < 3; ++i) heat[static_cast<size_t>(row[source.vertex[i]]) * lanes + j] += source.weight[i];
+  }
+  heat_.solve_block(heat);
+  std::fill(distance, distance + size, 0.0f);
+  for (Eigen::Index f = 0; f < faces_.rows(); ++f) {
+    size_t at[3];
+    for (int i = 0; i < 3; ++i) at[i] = static_cast<size_t>(faces_(f, i)) * lanes;
+    add_face(heat + at[0], heat + at[1], heat + at[2], &face_coefficient_(f, 0), distance + at[0], distance + at[1],
+             distance + at[2]);
+  }
+  poisson_.solve_block(distance);
+  float zero[lanes];  // the level at the source, where the distance is 0
+  for (int j = 0; j < lanes; ++j) {
+    const Source& source = sources[std::min<size_t>(j, sources.size() - 1)];
+    zero[j] = 0;
+    for (int i = 0; i < 3; ++i)
+      zero[j] += static_cast<float>(source.weight[i]) * distance[static_cast<size_t>(row[source.vertex[i]]) * lanes + j];
+  }
+  for (int32_t v = 0; v < n; ++v) {
+    const float* from = distance + static_cast<size_t>(row[v]) * lanes;
+    for (int j = 0; j < lanes; ++j) out[static_cast<size_t>(v) * lanes + j] = std::max(from[j] - zero[j], 0.0f);
+  }
+}
+
+void HeatMethod::run(std::span<const Source> sources, const Execution& execution, const BlockSink& sink) const {
+  const auto count = static_cast<int64_t>(sources.size());
+  const size_t size = static_cast<size_t>(vertex_count()) * lanes;
+  parallel_for(execution, (count + lanes - 1) / lanes, [&](int64_t block) {
+    AlignedArray<double> heat(size);
+    AlignedArray<float> distance(size), out(size);
+    const int64_t first = block * lanes;
+    const auto used = static_cast<int32_t>(std::min<int64_t>(lanes, count - first));
+    solve_block(sources.subspan(first, used), heat.data(), distance.data(), out.data());
+    sink(first, used, out.data());
+  });
+}
+
+void HeatMethod::for_each_block(std::span<const SurfacePoint> points, const Execution& execution,
+                                const BlockSink& sink) const {
+  std::vector<Source> sources(points.size());
+  for (size_t s = 0; s < points.size(); ++s)
+    for (int i = 0; i < 3; ++i) {
+      sources[s].vertex[i] = triangles_(points[s].triangle, i);
+      sources[s].weight[i] = points[s].barycentric[i];
+    }
+  run(sources, execution, sink);
+}
+
+void HeatMethod::for_each_block(std::span<const int32_t> vertices, const Execution& execution,
+                                const BlockSink& sink) const {
+  std::vector<Source> sources(vertices.size());
+  for (size_t s = 0; s < vertices.size(); ++s)
+    sources[s] = {{vertices[s], vertices[s], vertices[s]}, {1, 0, 0}};
+  run(sources, execution, sink);
+}
+
+namespace {
+
+HeatMethod::BlockSink into_rows(RowMatrixf& rows) {
+  return [&rows](int64_t first, int32_t count, const float* distances) {
+    for (Eigen::Index v = 0; v < rows.cols(); ++v)
+      for (int32_t j = 0; j < count; ++j) rows(first + j, v) = distances[v * lanes + j];
+  };
+}
+
+}  // namespace
+
+RowMatrixf HeatMethod::distances(std::span<const SurfacePoint> sources, const Execution& execution) const {
+  RowMatrixf result(sources.size(), vertex_count());
+  for_each_block(sources, execution, into_rows(result));
+  return result;
+}
+
+RowMatrixf HeatMethod::distances(std::span<const int32_t> source_vertices, const Execution& execution) const {
+  RowMatrixf result(source_vertices.size(), vertex_count());
+  for_each_block(source_vertices, execution, into_rows(result));
+  return result;
+}
+
+}  // namespace focal

@@ -1,0 +1,39 @@
+// The contents of a model. See landmark_model.h for what a caller needs to know of it.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "constellation/constellation.h"
+#include "forest/regression_forest.h"
+#include "landmarks/landmark_model.h"
+
+namespace focal {
+
+using TargetMatrix = Eigen::Matrix<uint16_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+inline constexpr uint16_t target_missing = 65535;  // the landmark is absent on the sample's shape
+inline constexpr uint16_t target_steps = 65534;    // target / target_steps * reach = distance
+
+// Turns how well a landmark fits into a probability; learned on shapes left out of the forest that judged them.
+struct Calibration {
+  static constexpr int32_t feature_count = 4;     // see landmarks/confidence.h
+  std::vector<float> typical_vote;                // per landmark: vote a sample at the true place, 0 when unknown
+  float weight[feature_count + 1] = {};           // logistic regression; the last is the bias
+  float near_error = 0.02f, far_error = 0.5f;     // mean error when right and when wrong, of sqrt(area)
+  float fit_centre = 0, fit_scale = 1;            // category fit: logistic of a mesh's mean evidence
+};
+
+struct LandmarkModel {
+  std::vector<std::string> landmark_names;
+  TrainParams params;
+  int32_t shape_count = 0;
+  int32_t mean_vertex_count = 0;
+  // default: one forest for all landmarks, its leaves keep samples (rows of targets).
+  // paper: one forest a landmark, its leaves keep means; targets is empty.
+  std::vector<RegressionForest> forests;
+  TargetMatrix targets;       // samples x landmarks
+  float reach = 0;            // largest target, of sqrt(area)
+  ConstellationStatistics constellation;
+  Calibration calibration;
+};
+
+}  // namespace focal
