@@ -1,0 +1,20 @@
+// The list of families, and what their designs share.
+#include "design.h"
+
+namespace creatures {
+
+std::array<double, 9> random_asymmetry(Random& random, double size) {
+  std::array<double, 9> waves;
+  for (int i : {0, 2, 3, 5, 6, 8}) waves[i] = random.uniform(-size, size);
+  for (int i : {1, 4, 7}) waves[i] = random.uniform(0, 6);
+  return waves;
+}
+
+const std::vector<Family>& families() {
+  static const std::vector<Family> all{
+      {"humanoid", "people of different proportions in different poses", design_humanoid},
+  };
+  return all;
+}
+
+}  // namespace creatures
