@@ -1,0 +1,149 @@
+// Painter's algorithm (Newell, Newell, Sancha 1972), coarsely: slabs of depth back to front; within a slab the
+// triangles of one shade share a path, which makes the file several times smaller.
+#include "drawing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+
+#include "surface.h"
+
+namespace picture {
+namespace {
+
+// The drawing's unit is a tenth of a pixel, so that coordinates are short integers.
+constexpr int kPanelWidth = 2300, kPanelHeight = 3000, kMargin = 160, kCaption = 300;
+constexpr int kSlabs = 28, kShades = 26;
+constexpr double kBall = 46;
+
+int rounded(double x) { return static_cast<int>(std::lround(x)); }
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else
+      out += c;
+  }
+  return out;
+}
+
+std::string colour(double red, double green, double blue) {
+  char text[8];
+  std::snprintf(text, sizeof text, "#%02x%02x%02x", rounded(255 * red), rounded(255 * green),
+                rounded(255 * blue));
+  return text;
+}
+
+// Clay: warm shadows, nearly white lights.
+std::string clay(int shade) {
+  const double t = (shade + 0.5) / kShades;
+  return colour(0.24 + 0.72 * t, 0.24 + 0.70 * t, 0.30 + 0.62 * t);
+}
+
+// Hues a golden angle apart stay different however many marks there are.
+std::string hue(int index) {
+  const double turn = std::fmod(0.02 + 0.61803398875 * index, 1.0);
+  const auto channel = [&](double offset) {
+    const double x = std::fabs(std::fmod(6 * (turn + offset), 6.0) - 3) - 1;
+    return 0.12 + 0.8 * std::clamp(x, 0.0, 1.0);
+  };
+  return colour(channel(0), channel(2.0 / 3), channel(1.0 / 3));
+}
+
+std::string path_of(const std::vector<const Patch*>& patches) {
+  std::string path;
+  for (const Patch* patch : patches) {
+    int x[3], y[3];
+    for (int k = 0; k < 3; ++k) x[k] = rounded(patch->corners[k][0]), y[k] = rounded(patch->corners[k][1]);
+    if ((x[1] - x[0]) * (y[2] - y[0]) == (x[2] - x[0]) * (y[1] - y[0])) continue;  // too small to see
+    char text[96];
+    std::snprintf(text, sizeof text, "M%d %dl%d %d %d %dz", x[0], y[0], x[1] - x[0], y[1] - y[0], x[2] - x[1],
+                  y[2] - y[1]);
+    path += text;
+  }
+  return path;
+}
+
+std::string surface_of(const Panel& panel) {
+  const auto depth = [](const Patch& p) { return p.corners[0][2] + p.corners[1][2] + p.corners[2][2]; };
+  double low = 1e300, high = -1e300;
+  for (const Patch& patch : panel.patches)
+    low = std::min(low, depth(patch)), high = std::max(high, depth(patch));
+  std::map<std::pair<int, int>, std::vector<const Patch*>> layers;  // by slab, then shade
+  for (const Patch& patch : panel.patches) {
+    const int slab = static_cast<int>((depth(patch) - low) / (high - low + 1e-9) * kSlabs);
+    layers[{slab, std::clamp(static_cast<int>(patch.shade * kShades), 0, kShades - 1)}].push_back(&patch);
+  }
+  std::string svg;
+  for (const auto& [key, patches] : layers) {
+    const std::string path = path_of(patches);
+    if (!path.empty()) svg += "<path class=\"s" + std::to_string(key.second) + "\" d=\"" + path + "\"/>\n";
+  }
+  return svg;
+}
+
+std::string balls_of(const Figure& figure, const Panel& panel, std::map<std::string, int>& colours) {
+  std::vector<size_t> order(figure.marks.size());
+  for (size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::sort(order.begin(), order.end(),
+            [&](size_t a, size_t b) { return panel.marks[a][2] < panel.marks[b][2]; });
+  std::string svg;
+  for (const size_t i : order) {
+    const Mark& mark = figure.marks[i];
+    const int index = colours.try_emplace(mark.name, static_cast<int>(colours.size())).first->second;
+    const bool hidden = is_hidden(panel, panel.marks[i], 2 * kBall);
+    const std::string paint = hue(index);
+    const std::string place = "cx=\"" + std::to_string(rounded(panel.marks[i][0])) + "\" cy=\"" +
+                              std::to_string(rounded(panel.marks[i][1])) + "\"";
+    svg += std::string("<g") + (hidden ? " opacity=\".3\"" : "") + "><title>" + escaped(mark.name) +
+           "</title><circle " + place + " r=\"" + std::to_string(rounded(kBall)) + "\" fill=\"" +
+           (mark.uncertain ? "none" : paint) + "\" stroke=\"" + (mark.uncertain ? paint : "#222") + "\"/>";
+    if (!mark.uncertain) svg += "<circle " + place + " r=\"46\" fill=\"url(#shine)\"/>";
+    svg += "</g>\n";
+  }
+  return svg;
+}
+
+std::string head_of(int width, int height) {
+  const std::string size = std::to_string(width) + " " + std::to_string(height);
+  std::string svg =
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + size + "\" width=\"" +
+      std::to_string(width / 10) + "\" height=\"" + std::to_string(height / 10) + "\">\n<style>\n" +
+      "text{font:150px sans-serif;fill:#444;text-anchor:middle}path{stroke-width:6;stroke-linejoin:round}" +
+      "circle{stroke-width:9}\n";
+  for (int shade = 0; shade < kShades; ++shade) {
+    const std::string paint = clay(shade);
+    svg += ".s" + std::to_string(shade) + "{fill:" + paint + ";stroke:" + paint + "}\n";
+  }
+  return svg +
+         "</style>\n<radialGradient id=\"shine\" cx=\".35\" cy=\".3\" r=\".75\"><stop stop-color=\"#fff\" " +
+         "stop-opacity=\".75\"/><stop offset=\".6\" stop-color=\"#fff\" stop-opacity=\"0\"/><stop "
+         "offset=\"1\" " +
+         "stop-opacity=\".35\"/></radialGradient>\n<rect width=\"" + std::to_string(width) + "\" height=\"" +
+         std::to_string(height) + "\" rx=\"120\" fill=\"#f7f5f1\"/>\n";
+}
+
+}  // namespace
+
+std::string draw(const std::vector<Figure>& figures) {
+  std::map<std::string, int> colours;
+  std::string svg = head_of(kPanelWidth * static_cast<int>(figures.size()), kPanelHeight + kCaption);
+  for (size_t i = 0; i < figures.size(); ++i) {
+    const Panel panel = fit_into_panel(figures[i], kPanelWidth - 2 * kMargin, kPanelHeight - 2 * kMargin);
+    svg += "<g transform=\"translate(" + std::to_string(kPanelWidth * static_cast<int>(i) + kMargin) + " " +
+           std::to_string(kMargin) + ")\">\n" + surface_of(panel) + balls_of(figures[i], panel, colours) +
+           "<text x=\"" + std::to_string(kPanelWidth / 2 - kMargin) + "\" y=\"" +
+           std::to_string(kPanelHeight - kMargin + kCaption / 4) + "\">" + escaped(figures[i].caption) +
+           "</text>\n</g>\n";
+  }
+  return svg + "</svg>\n";
+}
+
+}  // namespace picture

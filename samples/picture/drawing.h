@@ -1,0 +1,29 @@
+// Shaded triangle meshes with landmark balls, side by side, as SVG text that stays small enough for a README.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace picture {
+
+using Point = std::array<double, 3>;
+
+struct Mark {
+  std::string name;
+  Point position;
+  bool uncertain = false;  // drawn hollow
+};
+
+struct Figure {
+  std::vector<Point> positions;
+  std::vector<std::array<uint32_t, 3>> triangles;  // counter-clockwise from outside
+  std::vector<Mark> marks;
+  std::string caption;
+  double yaw = 25;  // degrees the figure is turned about +Y; at 0 it looks at the viewer along +Z
+};
+
+// Marks of the same name get the same colour in every figure.
+std::string draw(const std::vector<Figure>& figures);
+
+}  // namespace picture

@@ -1,0 +1,88 @@
+// focal_picture OUT.svg MESH.glb[,LANDMARKS.json[,CAPTION[,YAW]]] ...: draws meshes and the landmarks found on them.
+#include <focal/focal.h>
+
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <stdexcept>
+
+#include "drawing.h"
+
+namespace {
+
+void check(focal_status status) {
+  if (status != FOCAL_OK) throw std::runtime_error(focal_last_error());
+}
+
+template <class Handle>
+using Owned = std::unique_ptr<Handle, focal_status (*)(Handle*)>;
+
+void load_mesh(const focal_context* context, const std::string& path, picture::Figure& figure) {
+  focal_mesh* loaded = nullptr;
+  check(focal_mesh_load_gltf(context, path.c_str(), nullptr, &loaded));
+  const Owned<focal_mesh> mesh(loaded, focal_mesh_destroy);
+  focal_mesh_info info;
+  check(focal_mesh_info_init(&info, sizeof info));
+  check(focal_mesh_get_info(mesh.get(), &info));
+  const float* positions = focal_mesh_positions(mesh.get());
+  const uint32_t* triangles = focal_mesh_triangles(mesh.get());
+  for (uint64_t i = 0; i < 3 * info.vertex_count; i += 3)
+    figure.positions.push_back({positions[i], positions[i + 1], positions[i + 2]});
+  for (uint64_t i = 0; i < 3 * info.triangle_count; i += 3)
+    figure.triangles.push_back({triangles[i], triangles[i + 1], triangles[i + 2]});
+}
+
+std::vector<picture::Mark> load_marks(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) throw std::runtime_error("cannot read " + path);
+  std::vector<picture::Mark> marks;
+  const auto document = nlohmann::json::parse(file);
+  for (const auto& landmark : document.at("landmarks")) {
+    const std::string status = landmark.value("status", "found");
+    if (status == "absent" || !landmark.contains("position") || landmark["position"].is_null()) continue;
+    marks.push_back(
+        {landmark.at("name"), landmark.at("position").get<picture::Point>(), status == "uncertain"});
+  }
+  return marks;
+}
+
+picture::Figure load_figure(const focal_context* context, const std::string& argument) {
+  std::istringstream words(argument);
+  std::string mesh, marks, caption, yaw;
+  std::getline(words, mesh, ',');
+  std::getline(words, marks, ',');
+  std::getline(words, caption, ',');
+  picture::Figure figure;
+  figure.caption = caption;
+  if (std::getline(words, yaw, ',')) figure.yaw = std::stod(yaw);
+  load_mesh(context, mesh, figure);
+  if (!marks.empty()) figure.marks = load_marks(marks);
+  return figure;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 3) {
+    std::fprintf(stderr, "usage: %s OUT.svg MESH.glb[,LANDMARKS.json[,CAPTION[,YAW]]] ...\n", argv[0]);
+    return 2;
+  }
+  try {
+    focal_context* created = nullptr;
+    check(focal_context_create(nullptr, &created));
+    const Owned<focal_context> context(created, focal_context_destroy);
+    std::vector<picture::Figure> figures;
+    for (int i = 2; i < argc; ++i) figures.push_back(load_figure(context.get(), argv[i]));
+    std::ofstream out(argv[1], std::ios::binary);
+    out << picture::draw(figures);
+    if (!out.flush()) throw std::runtime_error(std::string("cannot write ") + argv[1]);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "focal_picture: %s\n", error.what());
+    return 1;
+  }
+  return 0;
+}
