@@ -23,9 +23,14 @@ class Task {
     const double next = from_ + (to_ - from_) * fraction;
     if (next > progress()) progress_.store(next, std::memory_order_relaxed);
   }
-  void reset() {
-    progress_.store(0), cancelled_.store(false), stage_.store("");
+  // For the next call; a cancel that came before it still counts.
+  void restart() {
+    progress_.store(0), stage_.store("");
     from_ = 0, to_ = 1;
+  }
+  void reset() {
+    restart();
+    cancelled_.store(false);
   }
 
  private:
