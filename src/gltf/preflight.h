@@ -12,7 +12,8 @@ namespace focal {
 struct GltfContainer {
   bool binary = false;
   std::span<const std::byte> json;
-  std::span<const std::byte> bin;   // first BIN chunk, padding included; data() is null when there is none
+  bool has_bin = false;
+  std::span<const std::byte> bin;   // the BIN chunk, padding included
   std::span<const std::byte> rest;  // every chunk after the JSON chunk, headers included, as they stand
 };
 

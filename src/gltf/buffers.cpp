@@ -1,0 +1,135 @@
+// Buffers from the GLB chunk, data: URIs and neighbouring files; buffer views by EXT_meshopt_compression.
+#include "gltf/buffers.h"
+
+#include <meshoptimizer.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "base/atomic_file.h"
+#include "base/error.h"
+#include "gltf/fields.h"
+#include "gltf/text.h"
+
+namespace focal {
+namespace {
+
+using nlohmann::json;
+
+std::span<const std::byte> extent(std::span<const std::byte> bytes, const json& owner, const Place& place) {
+  const int64_t offset = integer(owner, "byteOffset", place, 0, kMostBytes, 0);
+  const int64_t length = integer(owner, "byteLength", place, 1, kMostBytes);
+  return bytes.subspan(static_cast<size_t>(offset), static_cast<size_t>(length));
+}
+
+// The preconditions of each decoder are asserts in the library, so they are checked here.
+bool decode_mode(const std::string& mode, std::vector<std::byte>& out, size_t count, size_t stride,
+                 std::span<const std::byte> in) {
+  const auto* data = reinterpret_cast<const unsigned char*>(in.data());
+  const bool is_index_stride = stride == 2 || stride == 4;
+  if (mode == "ATTRIBUTES")
+    return stride % 4 == 0 && meshopt_decodeVertexBuffer(out.data(), count, stride, data, in.size()) == 0;
+  if (mode == "TRIANGLES")
+    return is_index_stride && count % 3 == 0 &&
+           meshopt_decodeIndexBuffer(out.data(), count, stride, data, in.size()) == 0;
+  if (mode == "INDICES")
+    return is_index_stride && meshopt_decodeIndexSequence(out.data(), count, stride, data, in.size()) == 0;
+  return false;
+}
+
+bool apply_filter(const std::string& filter, std::vector<std::byte>& bytes, size_t count, size_t stride) {
+  if (filter == "NONE") return true;
+  if (filter == "OCTAHEDRAL" && (stride == 4 || stride == 8))
+    meshopt_decodeFilterOct(bytes.data(), count, stride);
+  else if (filter == "QUATERNION" && stride == 8)
+    meshopt_decodeFilterQuat(bytes.data(), count, stride);
+  else if (filter == "EXPONENTIAL" && stride % 4 == 0)
+    meshopt_decodeFilterExp(bytes.data(), count, stride);
+  else
+    return false;
+  return true;
+}
+
+}  // namespace
+
+GltfBuffers::GltfBuffers(const json& root, const GltfContainer& container, const GltfLimits& limits,
+                         std::optional<std::filesystem::path> folder)
+    : root_(root), container_(container), limits_(limits), folder_(std::move(folder)) {}
+
+std::span<const std::byte> GltfBuffers::view(int64_t index) {
+  const Place place{"bufferViews", index};
+  const json& view = list(root_, "bufferViews")[static_cast<size_t>(index)];
+  const json* compressed = extension(view, "EXT_meshopt_compression");
+  if (!compressed) return extent(buffer(view["buffer"].get<int64_t>()), view, place);
+  auto found = decoded_views_.find(index);
+  if (found == decoded_views_.end()) found = decoded_views_.emplace(index, decode(*compressed, place)).first;
+  return found->second;
+}
+
+std::span<const std::byte> GltfBuffers::buffer(int64_t index) {
+  const Place place{"buffers", index};
+  const json& buffer = list(root_, "buffers")[static_cast<size_t>(index)];
+  const int64_t length = integer(buffer, "byteLength", place, 1, kMostBytes);
+  std::span<const std::byte> bytes;
+  if (const std::string* uri = text(buffer, "uri", place)) {
+    auto found = loaded_buffers_.find(index);
+    if (found == loaded_buffers_.end()) {
+      if (is_data_uri(*uri)) charge(static_cast<int64_t>(uri->size() / 4 * 3));
+      found = loaded_buffers_.emplace(index, load(*uri, place)).first;
+    }
+    bytes = found->second;
+  } else if (index == 0 && container_.has_bin) {
+    bytes = container_.bin;
+  } else {
+    fail_field(place, "uri", "is missing and there is no BIN chunk for it");
+  }
+  if (static_cast<int64_t>(bytes.size()) < length)
+    fail_field(place, "byteLength",
+               "is " + std::to_string(length) + " where " + std::to_string(bytes.size()) + " bytes are");
+  return bytes;
+}
+
+std::vector<std::byte> GltfBuffers::load(const std::string& uri, const Place& place) const {
+  if (is_data_uri(uri)) {
+    auto bytes = data_uri_bytes(uri);
+    if (!bytes) fail_field(place, "uri", "is not a well-formed base64 data URI");
+    return std::move(*bytes);
+  }
+  const auto path = percent_decoded(uri);
+  if (!path || path->empty() || path->find('\0') != std::string::npos || path->find(':') != std::string::npos)
+    fail_field(place, "uri", "is neither data nor the name of a file beside this one");
+  if (!folder_)
+    throw Error(Status::unsupported, "the buffer lies in another file, '" + printable(*path) + "'",
+                "allow external files, or save the model as one .glb");
+  return read_file_inside(*folder_, *path, limits_.file_bytes);
+}
+
+std::vector<std::byte> GltfBuffers::decode(const json& compressed, const Place& place) {
+  const auto source = extent(buffer(compressed["buffer"].get<int64_t>()), compressed, place);
+  const int64_t count = integer(compressed, "count", place, 1, kMostBytes);
+  const int64_t stride = integer(compressed, "byteStride", place, 1, 256);
+  // The codecs cannot shrink data further than this, so a tiny file cannot ask for a huge block.
+  constexpr int64_t kBestRatio = 1024;
+  if (count * stride > kBestRatio * static_cast<int64_t>(source.size()))
+    fail_field(place, "extensions", "EXT_meshopt_compression announces more data than it can hold");
+  charge(count * stride);
+  std::vector<std::byte> bytes(static_cast<size_t>(count * stride));
+  const std::string* mode = text(compressed, "mode", place);
+  const std::string* filter = text(compressed, "filter", place);
+  if (!mode || !decode_mode(*mode, bytes, static_cast<size_t>(count), static_cast<size_t>(stride), source) ||
+      !apply_filter(filter ? *filter : "NONE", bytes, static_cast<size_t>(count),
+                    static_cast<size_t>(stride)))
+    fail_field(place, "extensions", "EXT_meshopt_compression data cannot be decoded");
+  return bytes;
+}
+
+void GltfBuffers::charge(int64_t bytes) {
+  decoded_bytes_ += bytes;
+  if (decoded_bytes_ > limits_.decoded_bytes)
+    throw Error(Status::unsupported,
+                "buffers of more than " + std::to_string(limits_.decoded_bytes) + " bytes after decoding",
+                "reduce the file or raise the limit");
+}
+
+}  // namespace focal

@@ -1,0 +1,84 @@
+// The GLB container: a header of 12 bytes, then chunks of length, type and data (glTF 2.0, section 4).
+#include <algorithm>
+#include <cstdint>
+#include <string>
+
+#include "base/error.h"
+#include "gltf/preflight.h"
+
+namespace focal {
+namespace {
+
+constexpr uint32_t kMagic = 0x46546c67, kJson = 0x4e4f534a, kBin = 0x004e4942;
+constexpr size_t kHeaderSize = 12, kChunkHeaderSize = 8;
+
+uint32_t little_endian_at(std::span<const std::byte> bytes, size_t at) {
+  uint32_t value = 0;
+  for (size_t i = 4; i-- > 0;) value = value << 8 | static_cast<uint32_t>(bytes[at + i]);
+  return value;
+}
+
+Error broken(const std::string& what) {
+  return Error(Status::invalid_file, "GLB: " + what,
+               "the file is truncated or damaged; copy or export it again");
+}
+
+struct Chunk {
+  uint32_t type;
+  std::span<const std::byte> data;
+};
+
+// Takes the next chunk off the front of `bytes`.
+Chunk take_chunk(std::span<const std::byte>& bytes) {
+  if (bytes.size() < kChunkHeaderSize) throw broken("a chunk header is cut off");
+  const size_t length = little_endian_at(bytes, 0);
+  if (length > bytes.size() - kChunkHeaderSize)
+    throw broken("a chunk of " + std::to_string(length) + " bytes where " +
+                 std::to_string(bytes.size() - kChunkHeaderSize) + " are left");
+  const Chunk chunk{little_endian_at(bytes, 4), bytes.subspan(kChunkHeaderSize, length)};
+  bytes = bytes.subspan(kChunkHeaderSize + length);
+  return chunk;
+}
+
+void open_binary(std::span<const std::byte> bytes, GltfContainer& container) {
+  if (bytes.size() < kHeaderSize) throw broken("the header is cut off");
+  const uint32_t version = little_endian_at(bytes, 4);
+  if (version != 2)
+    throw Error(Status::unsupported, "GLB of version " + std::to_string(version),
+                "convert the file to glTF 2.0");
+  const size_t length = little_endian_at(bytes, 8);
+  if (length < kHeaderSize || length > bytes.size())
+    throw broken("the header announces " + std::to_string(length) + " bytes, the file has " +
+                 std::to_string(bytes.size()));
+  auto left = bytes.subspan(kHeaderSize, length - kHeaderSize);
+  const Chunk first = take_chunk(left);
+  if (first.type != kJson || first.data.empty()) throw broken("the first chunk is not JSON");
+  container.json = first.data;
+  container.rest = left;
+  while (!left.empty()) {
+    const Chunk chunk = take_chunk(left);
+    if (chunk.type == kJson) throw broken("two JSON chunks");
+    if (chunk.type != kBin) continue;
+    if (container.has_bin) throw broken("two BIN chunks");
+    container.bin = chunk.data;
+    container.has_bin = true;
+  }
+}
+
+}  // namespace
+
+GltfContainer open_container(std::span<const std::byte> bytes, const GltfLimits& limits) {
+  if (bytes.empty()) throw Error(Status::invalid_file, "the file is empty", "pass a .glb or .gltf file");
+  GltfContainer container;
+  container.binary = bytes.size() >= 4 && little_endian_at(bytes, 0) == kMagic;
+  if (container.binary)
+    open_binary(bytes, container);
+  else
+    container.json = bytes;
+  if (static_cast<int64_t>(container.json.size()) > limits.json_bytes)
+    throw Error(Status::unsupported, "glTF with " + std::to_string(container.json.size()) + " bytes of JSON",
+                "save it as .glb, which keeps the geometry out of the JSON, or raise the limit");
+  return container;
+}
+
+}  // namespace focal
