@@ -180,9 +180,10 @@ typedef struct focal_mesh_params {
   int32_t drop_degenerate;   /* drop triangles with a repeated corner and repeated triangles. Default 1 */
   int32_t bridge_components; /* link the parts of a many-part character for the analysis. Default 1 */
   /* The rest concerns glTF files only. */
-  int32_t allow_external_files; /* read .bin files beside a .gltf, inside its folder only. Default 1 */
+  int32_t allow_external_files; /* also read .bin files beside a .gltf, inside its folder only. Default 0 */
   int32_t keep_source_file;     /* keep the file's bytes, so that results can be written into it. Default 1 */
   uint64_t max_vertices;        /* 1 or more. Default 5,000,000 */
+  uint64_t max_triangles;       /* 1 or more. Default 10,000,000 */
   uint64_t max_nodes;           /* 1 or more. Default 1,000,000 */
   uint64_t max_json_bytes;      /* 1 or more. Default 64 MiB */
   uint64_t max_file_bytes;      /* 1 or more, also for each external file. Default 2 GiB */
@@ -256,9 +257,10 @@ FOCAL_API focal_status focal_training_set_create(const focal_context* context,
 FOCAL_API focal_status focal_training_set_destroy(focal_training_set* set);
 
 /* Adds a mesh with its marks, landmark_count of them, as surface points (triangle FOCAL_NO_TRIANGLE: absent
- * on this mesh) or as vertices (FOCAL_NO_VERTEX: absent). Weights are scaled to sum 1. The set stays as it
- * was on error: INVALID_LANDMARK (no such triangle or vertex, negative or zero weights, a triangle that was
- * dropped as degenerate), INVALID_ARGUMENT (another landmark_count than the set's). */
+ * on this mesh) or as vertices (FOCAL_NO_VERTEX: absent). Weights are scaled to sum 1; a mark in a triangle
+ * that was dropped as degenerate moves to its heaviest corner. The set stays as it was on error:
+ * INVALID_LANDMARK (no such triangle or vertex, weights that are negative or all zero, a vertex that no
+ * triangle uses), INVALID_ARGUMENT (another landmark_count than the set's). */
 FOCAL_API focal_status focal_training_set_add(focal_training_set* set, const focal_mesh* mesh,
                                               const focal_surface_point* landmarks, uint64_t landmark_count);
 FOCAL_API focal_status focal_training_set_add_vertices(focal_training_set* set, const focal_mesh* mesh,
@@ -400,7 +402,8 @@ FOCAL_API focal_status focal_detection_info_init(focal_detection_info* info, siz
 FOCAL_API focal_status focal_detection_get_info(const focal_detection* detection,
                                                 focal_detection_info* out_info);
 
-/* Wall time of each stage in seconds; load and repair are the mesh's. total is the sum. */
+/* Wall time of each stage in seconds; load and repair are the mesh's. total: all of
+ * them and what lies between. */
 typedef struct focal_stage_seconds {
   uint32_t struct_size;
   uint32_t reserved;
@@ -429,12 +432,14 @@ FOCAL_API focal_status focal_detection_votes(const focal_detection* detection, u
                                              uint64_t vertex_count, float* out_votes);
 
 /* Writes the caller's own glTF, nothing lost, plus a node for each landmark that is not absent and
- * mesh.extras.focal. A .gltf path writes JSON, any other a .glb. UNSUPPORTED when the mesh's file was not
- * kept and cannot be made. */
+ * mesh.extras.focal. It is the kind of file that was loaded: a path that ends in the other kind's suffix is
+ * INVALID_ARGUMENT; files beside a .gltf are referred to as before. A mesh from arrays, or whose file was not
+ * kept (focal_mesh_params.keep_source_file), is written as a plain .glb. Errors: IO, FILE_NOT_FOUND (no such
+ * folder). */
 FOCAL_API focal_status focal_detection_write_gltf(const focal_detection* detection, const char* path);
 
-/* Writes a .glb of the surface with the vote maps as vertex colours, to look at. UNSUPPORTED without votes.
- */
+/* Writes a .glb of the surface with the vote maps as vertex colours, to look at: each vertex in
+ * the hue of the landmark with the strongest vote there. UNSUPPORTED when votes were not kept. */
 FOCAL_API focal_status focal_detection_write_votes_gltf(const focal_detection* detection, const char* path);
 
 #ifdef __cplusplus

@@ -1,0 +1,80 @@
+#include "boundary.h"
+
+#include <algorithm>
+#include <cstring>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#if defined(__SSE2__)
+#include <xmmintrin.h>
+#endif
+
+#include "base/error.h"
+
+namespace focal {
+namespace {
+
+// A plain array: setting it needs no memory, and a thread that ends has nothing to destroy.
+thread_local char error_text[2048] = "";
+
+void set_last_error(std::string_view message, std::string_view hint) noexcept {
+  constexpr std::string_view separator = "\nhint: ";
+  constexpr size_t capacity = sizeof error_text - 1;
+  size_t size = 0;
+  const auto append = [&](std::string_view text, size_t limit) {
+    size_t count = std::min(text.size(), limit - size);
+    // Never cut inside a UTF-8 character.
+    while (count > 0 && count < text.size() && (text[count] & 0xC0) == 0x80) --count;
+    std::memcpy(error_text + size, text.data(), count);
+    size += count;
+  };
+  // The hint is kept whole as far as it can be: a message may quote a long path, a hint never does.
+  append(message, capacity - std::min(separator.size() + hint.size(), capacity / 2));
+  append(separator, capacity);
+  append(hint, capacity);
+  error_text[size] = '\0';
+}
+
+}  // namespace
+
+DefaultFloatEnvironment::DefaultFloatEnvironment() noexcept {
+  std::fegetenv(&host_);
+  std::fesetenv(FE_DFL_ENV);
+#if defined(__SSE2__)
+  _mm_setcsr(0x1F80);  // FE_DFL_ENV does not promise to clear flush-to-zero and denormals-are-zero
+#endif
+}
+
+DefaultFloatEnvironment::~DefaultFloatEnvironment() { std::fesetenv(&host_); }
+
+focal_status record_current_exception() noexcept {
+  try {
+    throw;
+  } catch (const Error& error) {
+    set_last_error(error.what(), error.hint());
+    return static_cast<focal_status>(error.status());
+  } catch (const std::bad_alloc&) {
+    set_last_error("out of memory", "close other programs, or use a mesh with fewer vertices");
+    return FOCAL_ERROR_OUT_OF_MEMORY;
+  } catch (const std::length_error&) {
+    set_last_error("out of memory: a size beyond any memory", "use a mesh with fewer vertices");
+    return FOCAL_ERROR_OUT_OF_MEMORY;
+  } catch (const std::exception& error) {
+    set_last_error(error.what(), "this is a mistake of focal: please report it with the mesh");
+    return FOCAL_ERROR_INTERNAL;
+  } catch (...) {
+    set_last_error("an exception of unknown type", "does a callback of the host throw? It must not");
+    return FOCAL_ERROR_INTERNAL;
+  }
+}
+
+const char* last_error() noexcept { return error_text; }
+
+void require(const void* argument, const char* name) {
+  if (!argument)
+    throw Error(Status::invalid_argument, std::string(name) + " is NULL", "pass the address of a variable");
+}
+
+}  // namespace focal

@@ -1,0 +1,95 @@
+#include "context.h"
+
+#include <utility>
+
+#include "boundary.h"
+#include "structs.h"
+
+namespace focal {
+namespace {
+
+// The host's threads may have any floating-point settings, so each body sets its own.
+void run_body(void* body_data, int64_t index) {
+  const DefaultFloatEnvironment environment;
+  (*static_cast<const std::function<void(int64_t)>*>(body_data))(index);
+}
+
+auto adapt_parallel_for(focal_parallel_for_fn parallel_for, void* user_data) {
+  return [=](int64_t count, const std::function<void(int64_t)>& body) {
+    parallel_for(user_data, count, run_body, const_cast<std::function<void(int64_t)>*>(&body));
+  };
+}
+
+std::shared_ptr<ContextObject> make_context(const focal_context_params& params) {
+  check_range("focal_context_params.backend", params.backend, FOCAL_BACKEND_AUTO, FOCAL_BACKEND_CUDA);
+  check_range("focal_context_params.device_index", params.device_index, 0, 1023);
+  check_range("focal_context_params.thread_count", params.thread_count, 0, 1024);
+  auto context = std::make_shared<ContextObject>();
+  context->backend_reason = params.backend == FOCAL_BACKEND_CPU
+                                ? "the CPU was asked for"
+                                : "this build has no GPU module, so the CPU is used";
+  context->execution.thread_count = params.thread_count;
+  if (params.parallel_for)
+    context->execution.host_parallel_for =
+        adapt_parallel_for(params.parallel_for, params.parallel_for_user_data);
+  context->log = params.log;
+  context->log_user_data = params.log_user_data;
+  return context;
+}
+
+}  // namespace
+
+template <>
+struct StructTraits<focal_context_params> {
+  static constexpr const char* name = "focal_context_params";
+  static constexpr size_t first_size = sizeof(focal_context_params);
+  static focal_context_params defaults() { return {}; }
+};
+
+Execution ContextObject::execution_with(Task* task) const {
+  Execution with_task = execution;
+  with_task.task = task;
+  return with_task;
+}
+
+void ContextObject::report(focal_log_level level, const std::string& message) const {
+  if (log) log(log_user_data, level, message.c_str());
+}
+
+void ContextObject::report_warnings(const std::vector<std::string>& warnings) const {
+  for (const std::string& warning : warnings) report(FOCAL_LOG_WARNING, warning);
+}
+
+}  // namespace focal
+
+using namespace focal;
+
+focal_status focal_context_params_init(focal_context_params* params, size_t struct_size) {
+  return guarded([&] { init_struct(params, struct_size); });
+}
+
+focal_status focal_context_create(const focal_context_params* params, focal_context** out_context) {
+  return guarded([&] {
+    require(out_context, "out_context");
+    const auto context = make_context(read_struct(params));
+    context->report(FOCAL_LOG_INFO, context->backend_reason);
+    *out_context = publish(context);
+  });
+}
+
+focal_status focal_context_destroy(focal_context* context) {
+  return remove_handle(context, HandleType::context);
+}
+
+focal_backend focal_context_backend(const focal_context* context) {
+  return guarded_value<focal_backend>(0, [&] { return resolve<ContextObject>(context)->backend; });
+}
+
+const char* focal_context_backend_reason(const focal_context* context) {
+  return guarded_value<const char*>(nullptr,
+                                    [&] { return resolve<ContextObject>(context)->backend_reason.c_str(); });
+}
+
+int32_t focal_context_thread_count(const focal_context* context) {
+  return guarded_value<int32_t>(0, [&] { return resolve<ContextObject>(context)->execution.threads(); });
+}

@@ -1,0 +1,215 @@
+#include "detection.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "arguments.h"
+#include "base/error.h"
+#include "boundary.h"
+#include "structs.h"
+#include "surface_points.h"
+#include "task.h"
+
+namespace focal {
+
+template <>
+struct StructTraits<focal_detect_params> {
+  static constexpr const char* name = "focal_detect_params";
+  static constexpr size_t first_size = 56;
+  static focal_detect_params defaults();
+};
+static_assert(sizeof(focal_detect_params) == 56 && offsetof(focal_detect_params, seed) == 48);
+
+template <>
+struct StructTraits<focal_landmark> {
+  static constexpr const char* name = "focal_landmark";
+  static constexpr size_t first_size = sizeof(focal_landmark);
+  static focal_landmark defaults() { return {}; }
+};
+static_assert(sizeof(void*) != 8 || (sizeof(focal_landmark) == 112 && offsetof(focal_landmark, point) == 40));
+
+template <>
+struct StructTraits<focal_detection_info> {
+  static constexpr const char* name = "focal_detection_info";
+  static constexpr size_t first_size = 48;
+  static focal_detection_info defaults() { return {}; }
+};
+static_assert(sizeof(focal_detection_info) == 48 && offsetof(focal_detection_info, backend) == 40);
+
+template <>
+struct StructTraits<focal_stage_seconds> {
+  static constexpr const char* name = "focal_stage_seconds";
+  static constexpr size_t first_size = 96;
+  static focal_stage_seconds defaults() { return {}; }
+};
+static_assert(sizeof(focal_stage_seconds) == 96 && offsetof(focal_stage_seconds, total) == 88);
+
+focal_detect_params StructTraits<focal_detect_params>::defaults() {
+  const DetectParams params;
+  focal_detect_params result{};
+  result.quality = static_cast<focal_quality>(params.quality);
+  result.sampling_rate = params.sampling_rate;
+  result.max_samples = params.max_samples;
+  result.peaks_per_landmark = params.peaks_per_landmark;
+  result.found_confidence = params.found_confidence;
+  result.absent_confidence = params.absent_confidence;
+  result.keep_votes = params.keep_votes;
+  result.seed = params.seed;
+  return result;
+}
+
+namespace {
+
+DetectParams checked(const focal_detect_params* given) {
+  const focal_detect_params params = read_struct(given);
+  constexpr double most = std::numeric_limits<int32_t>::max();
+  check_range("focal_detect_params.quality", params.quality, FOCAL_QUALITY_BEST, FOCAL_QUALITY_INTERACTIVE);
+  check_range("focal_detect_params.sampling_rate", params.sampling_rate, 1e-6, 1);
+  check_range("focal_detect_params.max_samples", params.max_samples, 1, most);
+  check_range("focal_detect_params.peaks_per_landmark", params.peaks_per_landmark, 1, 64);
+  check_range("focal_detect_params.found_confidence", params.found_confidence, 0, 1);
+  check_range("focal_detect_params.absent_confidence", params.absent_confidence, 0, params.found_confidence);
+  check_flag("focal_detect_params.keep_votes", params.keep_votes);
+  check_reserved("focal_detect_params", params.reserved);
+  DetectParams result;
+  result.quality = static_cast<Quality>(params.quality);
+  result.sampling_rate = params.sampling_rate;
+  result.max_samples = params.max_samples;
+  result.peaks_per_landmark = params.peaks_per_landmark;
+  result.found_confidence = params.found_confidence;
+  result.absent_confidence = params.absent_confidence;
+  result.keep_votes = params.keep_votes != 0;
+  result.seed = params.seed;
+  return result;
+}
+
+uint32_t vertex_out(int32_t vertex) { return vertex < 0 ? FOCAL_NO_VERTEX : static_cast<uint32_t>(vertex); }
+
+focal_landmark to_abi(const DetectedLandmark& from, const std::string& name) {
+  focal_landmark to{};
+  to.status = static_cast<focal_landmark_status>(from.status);
+  to.name = name.c_str();
+  to.confidence = from.confidence;
+  to.expected_error = from.expected_error;
+  to.point = point_out(from.source_point);
+  position_out(from.position, to.position);
+  to.vertex = vertex_out(from.source_vertex);
+  const DetectedPoint second = from.runner_up.value_or(DetectedPoint{});
+  to.has_runner_up = from.runner_up.has_value();
+  to.runner_up_confidence = second.confidence;
+  to.runner_up_point = point_out(second.source_point);
+  position_out(second.position, to.runner_up_position);
+  to.runner_up_vertex = vertex_out(second.source_vertex);
+  return to;
+}
+
+focal_detection* run(const focal_model* model, const focal_mesh* mesh, const focal_detect_params* params,
+                     focal_task* task) {
+  const auto object = std::make_shared<DetectionObject>();
+  object->model = resolve<ModelObject>(model);
+  object->mesh = resolve<MeshObject>(mesh);
+  const DetectParams how = checked(params);
+  const TaskLease lease(task);
+  const Execution execution = object->model->context->execution_with(lease.task());
+  execution.check_cancelled();
+  object->detection = detect(object->model->model, object->mesh->mesh, how, execution);
+  object->detection.seconds.load = object->mesh->load_seconds;
+  object->detection.seconds.repair = object->mesh->repair_seconds;
+  object->detection.seconds.total += object->mesh->load_seconds + object->mesh->repair_seconds;
+  object->model->context->report_warnings(object->detection.warnings);
+  object->warnings = object->mesh->warnings;
+  object->warnings.insert(object->warnings.end(), object->detection.warnings.begin(),
+                          object->detection.warnings.end());
+  return publish(object);
+}
+
+}  // namespace
+}  // namespace focal
+
+using namespace focal;
+
+focal_status focal_detect_params_init(focal_detect_params* params, size_t struct_size) {
+  return guarded([&] { init_struct(params, struct_size); });
+}
+
+focal_status focal_model_detect(const focal_model* model, const focal_mesh* mesh,
+                                const focal_detect_params* params, focal_task* task,
+                                focal_detection** out_detection) {
+  return guarded([&] {
+    require(out_detection, "out_detection");
+    *out_detection = run(model, mesh, params, task);
+  });
+}
+
+focal_status focal_detection_destroy(focal_detection* detection) {
+  return remove_handle(detection, HandleType::detection);
+}
+
+focal_status focal_landmark_init(focal_landmark* landmark, size_t struct_size) {
+  return guarded([&] { init_struct(landmark, struct_size); });
+}
+
+uint32_t focal_detection_landmark_count(const focal_detection* detection) {
+  return guarded_value<uint32_t>(0, [&] {
+    return static_cast<uint32_t>(resolve<DetectionObject>(detection)->detection.landmarks.size());
+  });
+}
+
+focal_status focal_detection_get_landmark(const focal_detection* detection, uint32_t index,
+                                          focal_landmark* out_landmark) {
+  return guarded([&] {
+    const auto object = resolve<DetectionObject>(detection);
+    const auto& landmarks = object->detection.landmarks;
+    check_index(index, landmarks.size(), "the detection", "landmarks");
+    write_result(out_landmark, to_abi(landmarks[index], object->model->info.landmark_names[index]));
+  });
+}
+
+focal_status focal_detection_info_init(focal_detection_info* info, size_t struct_size) {
+  return guarded([&] { init_struct(info, struct_size); });
+}
+
+focal_status focal_detection_get_info(const focal_detection* detection, focal_detection_info* out_info) {
+  return guarded([&] {
+    const auto object = resolve<DetectionObject>(detection);
+    focal_detection_info info{};
+    info.landmark_count = static_cast<uint32_t>(object->detection.landmarks.size());
+    info.warning_count = static_cast<uint32_t>(object->warnings.size());
+    info.has_votes = object->detection.votes.size() > 0;
+    info.vertex_count = static_cast<uint64_t>(object->mesh->mesh->source.vertex_count());
+    info.triangle_count = static_cast<uint64_t>(object->mesh->mesh->source.triangle_count());
+    info.category_fit = object->detection.category_fit;
+    info.backend = object->model->context->backend;
+    write_result(out_info, info);
+  });
+}
+
+focal_status focal_stage_seconds_init(focal_stage_seconds* seconds, size_t struct_size) {
+  return guarded([&] { init_struct(seconds, struct_size); });
+}
+
+focal_status focal_detection_get_seconds(const focal_detection* detection, focal_stage_seconds* out_seconds) {
+  return guarded([&] {
+    const StageSeconds from = resolve<DetectionObject>(detection)->detection.seconds;
+    focal_stage_seconds to{};
+    to.load = from.load;
+    to.repair = from.repair;
+    to.proxy = from.proxy;
+    to.spectrum = from.spectrum;
+    to.descriptors = from.descriptors;
+    to.geodesics = from.geodesics;
+    to.forest = from.forest;
+    to.vote = from.vote;
+    to.constellation = from.constellation;
+    to.refine = from.refine;
+    to.total = from.total;
+    write_result(out_seconds, to);
+  });
+}
+
+const char* focal_detection_warning(const focal_detection* detection, uint32_t index) {
+  return guarded_value<const char*>(nullptr, [&] {
+    return text_at(resolve<DetectionObject>(detection)->warnings, index, "the detection", "warnings");
+  });
+}

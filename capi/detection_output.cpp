@@ -1,0 +1,113 @@
+// What leaves a detection in bulk: vote maps and files.
+#include <span>
+#include <string>
+#include <utility>
+
+#include "arguments.h"
+#include "base/atomic_file.h"
+#include "base/error.h"
+#include "boundary.h"
+#include "detection.h"
+#include "gltf/writer.h"
+#include "vote_colours.h"
+
+namespace focal {
+namespace {
+
+const RowMatrixf& votes_of(const DetectionObject& object) {
+  if (object.detection.votes.size() == 0)
+    throw Error(Status::unsupported, "the detection has no vote maps",
+                "detect with focal_detect_params.keep_votes 1");
+  return object.detection.votes;
+}
+
+const char* name_of(LandmarkStatus status) {
+  switch (status) {
+    case LandmarkStatus::found:
+      return "found";
+    case LandmarkStatus::uncertain:
+      return "uncertain";
+    case LandmarkStatus::absent:
+      return "absent";
+  }
+  return "absent";
+}
+
+std::vector<GltfLandmark> landmarks_of(const DetectionObject& object) {
+  std::vector<GltfLandmark> result;
+  for (size_t i = 0; i < object.detection.landmarks.size(); ++i) {
+    const DetectedLandmark& from = object.detection.landmarks[i];
+    result.push_back({object.model->info.landmark_names[i], from.source_point, from.position, from.confidence,
+                      name_of(from.status)});
+  }
+  return result;
+}
+
+bool is_glb(std::span<const std::byte> file) {
+  return file.size() >= 4 && std::string_view(reinterpret_cast<const char*>(file.data()), 4) == "glTF";
+}
+
+// The content stays of the kind it came as, so a path that promises the other kind would mislead every reader.
+void check_suffix(const std::filesystem::path& path, bool binary) {
+  const auto suffix = path.extension();
+  const char* wanted = binary ? ".glb" : ".gltf";
+  if (suffix == (binary ? ".gltf" : ".glb"))
+    throw Error(Status::invalid_argument,
+                "the mesh is written as " + std::string(wanted) + ", the path ends in " + suffix.string(),
+                std::string("choose a path that ends in ") + wanted);
+}
+
+std::vector<std::byte> with_landmarks(const DetectionObject& object, const std::filesystem::path& path) {
+  const MeshObject& mesh = *object.mesh;
+  const auto landmarks = landmarks_of(object);
+  if (!mesh.file.empty()) {
+    check_suffix(path, is_glb(mesh.file));
+    return add_landmarks(mesh.file, mesh.primitives, landmarks, mesh.limits);
+  }
+  check_suffix(path, true);
+  const auto plain = write_glb(mesh.mesh->source);
+  return add_landmarks(plain, read_gltf_memory(plain).primitives, landmarks);
+}
+
+}  // namespace
+}  // namespace focal
+
+using namespace focal;
+
+focal_status focal_detection_votes(const focal_detection* detection, uint32_t index, uint64_t vertex_count,
+                                   float* out_votes) {
+  return guarded([&] {
+    require(out_votes, "out_votes");
+    const auto object = resolve<DetectionObject>(detection);
+    const auto& surface_vertex = object->mesh->mesh->surface_vertex;
+    check_index(index, object->detection.landmarks.size(), "the detection", "landmarks");
+    if (vertex_count != surface_vertex.size())
+      throw Error(Status::invalid_argument,
+                  "vertex_count is " + std::to_string(vertex_count) + ", the mesh has " +
+                      std::to_string(surface_vertex.size()) + " vertices",
+                  "pass room for one float for each vertex of the mesh");
+    const auto votes = votes_of(*object).row(index);
+    for (size_t v = 0; v < surface_vertex.size(); ++v)
+      out_votes[v] = surface_vertex[v] < 0 ? 0 : votes(surface_vertex[v]);
+  });
+}
+
+focal_status focal_detection_write_gltf(const focal_detection* detection, const char* path) {
+  return guarded([&] {
+    const auto object = resolve<DetectionObject>(detection);
+    const auto file = path_of(path);
+    write_file_atomically(file, with_landmarks(*object, file));
+  });
+}
+
+focal_status focal_detection_write_votes_gltf(const focal_detection* detection, const char* path) {
+  return guarded([&] {
+    const auto object = resolve<DetectionObject>(detection);
+    const auto file = path_of(path);
+    check_suffix(file, true);
+    TriangleMesh surface = object->mesh->mesh->surface;
+    surface.positions *= object->mesh->mesh->scale;
+    surface.positions.rowwise() += object->mesh->mesh->centre.transpose();
+    write_file_atomically(file, write_glb(surface, vote_colours(votes_of(*object)), "votes"));
+  });
+}

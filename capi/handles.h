@@ -1,0 +1,34 @@
+// The table behind every handle: what the host holds is a tag that is looked up, never an address that is followed.
+#pragma once
+#include <cstdint>
+#include <memory>
+
+#include "focal/focal.h"
+
+namespace focal {
+
+enum class HandleType : int32_t { context, mesh, training_set, model, detection, task, blob };
+
+// Each tag is given out once in the life of the process, so a stale one can never name a newer object.
+const void* insert_handle(HandleType type, std::shared_ptr<void> object);
+
+// Throws invalid_handle: NULL, stale, of another type, or not from here at all.
+std::shared_ptr<void> find_handle(const void* tag, HandleType type);
+
+// The object is freed here, or by the last call or result that still uses it. NULL is fine.
+focal_status remove_handle(const void* tag, HandleType type) noexcept;
+
+// An Object says which handle stands for it: `using Handle = focal_mesh; static constexpr HandleType type = ...`.
+template <class Object>
+typename Object::Handle* publish(std::shared_ptr<Object> object) {
+  const void* tag = insert_handle(Object::type, std::move(object));
+  return static_cast<typename Object::Handle*>(const_cast<void*>(tag));
+}
+
+// Shared ownership for the time of the call: another thread may destroy the handle meanwhile.
+template <class Object>
+std::shared_ptr<Object> resolve(const typename Object::Handle* handle) {
+  return std::static_pointer_cast<Object>(find_handle(handle, Object::type));
+}
+
+}  // namespace focal

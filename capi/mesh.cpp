@@ -1,0 +1,276 @@
+#include "mesh.h"
+
+#include <chrono>
+#include <limits>
+#include <utility>
+
+#include "arguments.h"
+#include "base/atomic_file.h"
+#include "base/error.h"
+#include "boundary.h"
+#include "structs.h"
+#include "surface_points.h"
+
+namespace focal {
+
+template <>
+struct StructTraits<focal_mesh_params> {
+  static constexpr const char* name = "focal_mesh_params";
+  static constexpr size_t first_size = 64;
+  static focal_mesh_params defaults();
+};
+static_assert(sizeof(focal_mesh_params) == 64 && offsetof(focal_mesh_params, max_vertices) == 24);
+
+template <>
+struct StructTraits<focal_mesh_desc> {
+  static constexpr const char* name = "focal_mesh_desc";
+  static constexpr size_t first_size = sizeof(focal_mesh_desc);
+  static focal_mesh_desc defaults() { return {}; }
+};
+
+template <>
+struct StructTraits<focal_mesh_info> {
+  static constexpr const char* name = "focal_mesh_info";
+  static constexpr size_t first_size = 72;
+  static focal_mesh_info defaults() { return {}; }
+};
+static_assert(sizeof(focal_mesh_info) == 72 && offsetof(focal_mesh_info, repair_seconds) == 64);
+
+focal_mesh_params StructTraits<focal_mesh_params>::defaults() {
+  const PrepareParams prepare;
+  const GltfReadParams read;
+  focal_mesh_params params{};
+  params.weld = prepare.weld;
+  params.drop_degenerate = prepare.drop_degenerate;
+  params.bridge_components = prepare.bridge_components;
+  params.allow_external_files = read.allow_external_files;
+  params.keep_source_file = 1;
+  params.max_vertices = static_cast<uint64_t>(read.limits.vertices);
+  params.max_triangles = static_cast<uint64_t>(read.limits.triangles);
+  params.max_nodes = static_cast<uint64_t>(read.limits.nodes);
+  params.max_json_bytes = static_cast<uint64_t>(read.limits.json_bytes);
+  params.max_file_bytes = static_cast<uint64_t>(read.limits.file_bytes);
+  return params;
+}
+
+namespace {
+
+class Stopwatch {
+ public:
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+};
+
+focal_mesh_params checked(const focal_mesh_params* given) {
+  const focal_mesh_params params = read_struct(given);
+  check_flag("focal_mesh_params.weld", params.weld);
+  check_flag("focal_mesh_params.drop_degenerate", params.drop_degenerate);
+  check_flag("focal_mesh_params.bridge_components", params.bridge_components);
+  check_flag("focal_mesh_params.allow_external_files", params.allow_external_files);
+  check_flag("focal_mesh_params.keep_source_file", params.keep_source_file);
+  // Vertices and triangles are counted in 32 bits inside.
+  constexpr double most = std::numeric_limits<int32_t>::max();
+  check_range("focal_mesh_params.max_vertices", static_cast<double>(params.max_vertices), 1, most);
+  check_range("focal_mesh_params.max_triangles", static_cast<double>(params.max_triangles), 1, most);
+  check_range("focal_mesh_params.max_nodes", static_cast<double>(params.max_nodes), 1, most);
+  check_range("focal_mesh_params.max_json_bytes", static_cast<double>(params.max_json_bytes), 1, 0x1p40);
+  check_range("focal_mesh_params.max_file_bytes", static_cast<double>(params.max_file_bytes), 1, 0x1p40);
+  return params;
+}
+
+GltfReadParams read_params(const focal_mesh_params& params) {
+  GltfReadParams read;
+  read.limits.vertices = static_cast<int64_t>(params.max_vertices);
+  read.limits.triangles = static_cast<int64_t>(params.max_triangles);
+  read.limits.nodes = static_cast<int64_t>(params.max_nodes);
+  read.limits.json_bytes = static_cast<int64_t>(params.max_json_bytes);
+  read.limits.file_bytes = static_cast<int64_t>(params.max_file_bytes);
+  read.allow_external_files = params.allow_external_files != 0;
+  return read;
+}
+
+void check_desc(const focal_mesh_desc& desc, const focal_mesh_params& params) {
+  require(desc.positions, "focal_mesh_desc.positions");
+  require(desc.indices, "focal_mesh_desc.indices");
+  if (desc.position_stride != 0 && (desc.position_stride < 12 || desc.position_stride % 4 != 0))
+    throw Error(
+        Status::invalid_argument,
+        "focal_mesh_desc.position_stride is " + std::to_string(desc.position_stride),
+        "give the bytes from one vertex to the next, a multiple of 4 from 12 up, or 0 for packed positions");
+  if (desc.index_count % 3 != 0)
+    throw Error(Status::invalid_argument, "focal_mesh_desc.index_count is not a multiple of 3",
+                "give three indices for each triangle");
+  if (desc.vertex_count > params.max_vertices || desc.index_count / 3 > params.max_triangles)
+    throw Error(Status::unsupported, "the mesh has more vertices or triangles than allowed",
+                "raise focal_mesh_params.max_vertices and max_triangles");
+}
+
+TriangleMesh mesh_of(const focal_mesh_desc& desc) {
+  TriangleMesh mesh;
+  const size_t stride = desc.position_stride ? desc.position_stride / sizeof(float) : 3;
+  mesh.positions.resize(static_cast<Eigen::Index>(desc.vertex_count), 3);
+  for (Eigen::Index v = 0; v < mesh.positions.rows(); ++v)
+    for (int i = 0; i < 3; ++i) mesh.positions(v, i) = desc.positions[static_cast<size_t>(v) * stride + i];
+  mesh.triangles.resize(static_cast<Eigen::Index>(desc.index_count / 3), 3);
+  for (Eigen::Index i = 0; i < mesh.triangles.size(); ++i) {
+    if (desc.indices[i] >= desc.vertex_count)
+      throw Error(Status::invalid_mesh,
+                  "triangle " + std::to_string(i / 3) + " names vertex " + std::to_string(desc.indices[i]) +
+                      ", the mesh has " + std::to_string(desc.vertex_count),
+                  "indices run from 0 to vertex_count - 1");
+    mesh.triangles.data()[i] = static_cast<int32_t>(desc.indices[i]);
+  }
+  return mesh;
+}
+
+// Prepares the surface and fills what the getters answer with.
+void finish(MeshObject& object, TriangleMesh source, const focal_mesh_params& params) {
+  const Stopwatch watch;
+  PrepareParams prepare_params;
+  prepare_params.weld = params.weld != 0;
+  prepare_params.drop_degenerate = params.drop_degenerate != 0;
+  prepare_params.bridge_components = params.bridge_components != 0;
+  auto mesh = std::make_shared<const PreparedMesh>(prepare(std::move(source), prepare_params));
+  object.positions.resize(static_cast<size_t>(mesh->source.positions.size()));
+  for (size_t i = 0; i < object.positions.size(); ++i)
+    object.positions[i] = static_cast<float>(mesh->source.positions.data()[i]);
+  object.mean_edge_length = mesh->scale * mean_edge_length(mesh->surface);
+  object.surface_area = mesh->scale * mesh->scale * surface_area(mesh->surface);
+  object.warnings.insert(object.warnings.end(), mesh->warnings.begin(), mesh->warnings.end());
+  object.mesh = std::move(mesh);
+  object.repair_seconds = watch.seconds();
+}
+
+// read() gives the triangles, bytes() the file they came from.
+template <class Read, class Bytes>
+focal_mesh* load(const focal_context* context, const focal_mesh_params* given, Read&& read, Bytes&& bytes) {
+  const auto running = resolve<ContextObject>(context);
+  const focal_mesh_params params = checked(given);
+  const GltfReadParams how = read_params(params);
+  const Stopwatch watch;
+  const auto object = std::make_shared<MeshObject>();
+  GltfMesh gltf = read(how);
+  object->warnings = std::move(gltf.warnings);
+  object->limits = how.limits;
+  if (params.keep_source_file) {
+    object->file = bytes(how);
+    object->primitives = std::move(gltf.primitives);
+  }
+  object->load_seconds = watch.seconds();
+  finish(*object, std::move(gltf.mesh), params);
+  running->report_warnings(object->warnings);
+  return publish(object);
+}
+
+}  // namespace
+}  // namespace focal
+
+using namespace focal;
+
+focal_status focal_mesh_params_init(focal_mesh_params* params, size_t struct_size) {
+  return guarded([&] { init_struct(params, struct_size); });
+}
+
+focal_status focal_mesh_desc_init(focal_mesh_desc* desc, size_t struct_size) {
+  return guarded([&] { init_struct(desc, struct_size); });
+}
+
+focal_status focal_mesh_create(const focal_context* context, const focal_mesh_desc* desc,
+                               const focal_mesh_params* params, focal_mesh** out_mesh) {
+  return guarded([&] {
+    require(out_mesh, "out_mesh");
+    const auto running = resolve<ContextObject>(context);
+    require_struct(desc);
+    const focal_mesh_desc description = read_struct(desc);
+    const focal_mesh_params how = checked(params);
+    check_desc(description, how);
+    const auto object = std::make_shared<MeshObject>();
+    finish(*object, mesh_of(description), how);
+    running->report_warnings(object->warnings);
+    *out_mesh = publish(object);
+  });
+}
+
+focal_status focal_mesh_load_gltf(const focal_context* context, const char* path,
+                                  const focal_mesh_params* params, focal_mesh** out_mesh) {
+  return guarded([&] {
+    require(out_mesh, "out_mesh");
+    const auto file = path_of(path);
+    *out_mesh = load(
+        context, params, [&](const GltfReadParams& how) { return read_gltf(file, how); },
+        [&](const GltfReadParams& how) { return read_file(file, how.limits.file_bytes); });
+  });
+}
+
+focal_status focal_mesh_load_gltf_memory(const focal_context* context, const void* data, uint64_t size,
+                                         const focal_mesh_params* params, focal_mesh** out_mesh) {
+  return guarded([&] {
+    require(out_mesh, "out_mesh");
+    const auto bytes = bytes_of(data, size);
+    *out_mesh = load(
+        context, params, [&](const GltfReadParams& how) { return read_gltf_memory(bytes, how); },
+        [&](const GltfReadParams&) { return std::vector<std::byte>(bytes.begin(), bytes.end()); });
+  });
+}
+
+focal_status focal_mesh_destroy(focal_mesh* mesh) { return remove_handle(mesh, HandleType::mesh); }
+
+focal_status focal_mesh_info_init(focal_mesh_info* info, size_t struct_size) {
+  return guarded([&] { init_struct(info, struct_size); });
+}
+
+focal_status focal_mesh_get_info(const focal_mesh* mesh, focal_mesh_info* out_info) {
+  return guarded([&] {
+    const auto object = resolve<MeshObject>(mesh);
+    focal_mesh_info info{};
+    info.warning_count = static_cast<uint32_t>(object->warnings.size());
+    info.vertex_count = static_cast<uint64_t>(object->mesh->source.vertex_count());
+    info.triangle_count = static_cast<uint64_t>(object->mesh->source.triangle_count());
+    info.surface_vertex_count = static_cast<uint64_t>(object->mesh->surface.vertex_count());
+    info.surface_triangle_count = static_cast<uint64_t>(object->mesh->surface.triangle_count());
+    info.mean_edge_length = object->mean_edge_length;
+    info.surface_area = object->surface_area;
+    info.load_seconds = object->load_seconds;
+    info.repair_seconds = object->repair_seconds;
+    write_result(out_info, info);
+  });
+}
+
+const float* focal_mesh_positions(const focal_mesh* mesh) {
+  return guarded_value<const float*>(nullptr, [&] { return resolve<MeshObject>(mesh)->positions.data(); });
+}
+
+const uint32_t* focal_mesh_triangles(const focal_mesh* mesh) {
+  // Every index is >= 0, and the signed and unsigned type of one size may stand for each other.
+  return guarded_value<const uint32_t*>(nullptr, [&] {
+    return reinterpret_cast<const uint32_t*>(resolve<MeshObject>(mesh)->mesh->source.triangles.data());
+  });
+}
+
+const char* focal_mesh_warning(const focal_mesh* mesh, uint32_t index) {
+  return guarded_value<const char*>(
+      nullptr, [&] { return text_at(resolve<MeshObject>(mesh)->warnings, index, "the mesh", "warnings"); });
+}
+
+focal_status focal_mesh_position_of(const focal_mesh* mesh, const focal_surface_point* point,
+                                    float* out_position) {
+  return guarded([&] {
+    require(point, "point");
+    require(out_position, "out_position");
+    const auto prepared = resolve<MeshObject>(mesh)->mesh;
+    const SurfacePoint on_surface = point_in(*prepared, *point, "the point");
+    position_out(position_of(prepared->source, to_source(*prepared, on_surface)), out_position);
+  });
+}
+
+focal_status focal_mesh_point_at_vertex(const focal_mesh* mesh, uint32_t vertex,
+                                        focal_surface_point* out_point) {
+  return guarded([&] {
+    require(out_point, "out_point");
+    const auto prepared = resolve<MeshObject>(mesh)->mesh;
+    *out_point = point_out(to_source(*prepared, vertex_in(*prepared, vertex, "the point")));
+  });
+}

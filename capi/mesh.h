@@ -1,0 +1,29 @@
+// focal_mesh: the caller's triangles, the surface made of them, and the file they came from.
+#pragma once
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "context.h"
+#include "gltf/reader.h"
+#include "handles.h"
+#include "mesh/prepare.h"
+
+namespace focal {
+
+struct MeshObject {
+  using Handle = focal_mesh;
+  static constexpr HandleType type = HandleType::mesh;
+
+  std::shared_ptr<const PreparedMesh> mesh;
+  std::vector<float> positions;  // vertex_count x 3, as the caller may read them
+  double mean_edge_length = 0, surface_area = 0;
+  double load_seconds = 0, repair_seconds = 0;
+  std::vector<std::string> warnings;      // of reading, then of preparing
+  std::vector<std::byte> file;            // the caller's glTF; empty when there is none or it was not kept
+  std::vector<GltfPrimitive> primitives;  // of that file
+  GltfLimits limits;                      // it was read with
+};
+
+}  // namespace focal

@@ -1,0 +1,190 @@
+#include "model.h"
+
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "arguments.h"
+#include "base/atomic_file.h"
+#include "base/error.h"
+#include "blob.h"
+#include "boundary.h"
+#include "landmarks/model_file.h"
+#include "landmarks/model_parts.h"
+#include "landmarks/train.h"
+#include "structs.h"
+#include "task.h"
+#include "training_set.h"
+
+namespace focal {
+namespace {
+
+focal_train_params to_abi(const TrainParams& params) {
+  focal_train_params result{};
+  result.preset = static_cast<focal_preset>(params.preset);
+  result.eigenpair_count = params.eigenpair_count;
+  result.tree_count = params.tree_count;
+  result.min_leaf_samples = params.min_leaf_samples;
+  result.components_per_split = params.components_per_split;
+  result.sampling_rate = params.sampling_rate;
+  result.max_samples_per_shape = params.max_samples_per_shape;
+  result.seed = params.seed;
+  return result;
+}
+
+Preset checked_preset(focal_preset preset) {
+  check_range("focal_train_params.preset", preset, FOCAL_PRESET_DEFAULT, FOCAL_PRESET_PAPER);
+  return static_cast<Preset>(preset);
+}
+
+}  // namespace
+
+template <>
+struct StructTraits<focal_train_params> {
+  static constexpr const char* name = "focal_train_params";
+  static constexpr size_t first_size = 48;
+  static focal_train_params defaults() { return to_abi(TrainParams::from_preset(Preset::default_preset)); }
+};
+static_assert(sizeof(focal_train_params) == 48 && offsetof(focal_train_params, seed) == 40);
+
+template <>
+struct StructTraits<focal_model_info> {
+  static constexpr const char* name = "focal_model_info";
+  static constexpr size_t first_size = 48;
+  static focal_model_info defaults() { return {}; }
+};
+static_assert(sizeof(focal_model_info) == 48 && offsetof(focal_model_info, file_bytes) == 40);
+
+namespace {
+
+TrainParams checked(const focal_train_params* given) {
+  const focal_train_params params = read_struct(given);
+  constexpr double most = std::numeric_limits<int32_t>::max();
+  TrainParams result = TrainParams::from_preset(checked_preset(params.preset));
+  check_range("focal_train_params.eigenpair_count", params.eigenpair_count, 8, 2000);
+  check_range("focal_train_params.tree_count", params.tree_count, 1, 10000);
+  check_range("focal_train_params.min_leaf_samples", params.min_leaf_samples, 1, most);
+  check_range("focal_train_params.components_per_split", params.components_per_split, 1, most);
+  check_range("focal_train_params.sampling_rate", params.sampling_rate, 1e-6, 1);
+  check_range("focal_train_params.max_samples_per_shape", params.max_samples_per_shape, 1, most);
+  check_reserved("focal_train_params", params.reserved);
+  result.eigenpair_count = params.eigenpair_count;
+  result.tree_count = params.tree_count;
+  result.min_leaf_samples = params.min_leaf_samples;
+  result.components_per_split = params.components_per_split;
+  result.sampling_rate = params.sampling_rate;
+  result.max_samples_per_shape = params.max_samples_per_shape;
+  result.seed = params.seed;
+  return result;
+}
+
+focal_model* publish_model(std::shared_ptr<const ContextObject> context, LandmarkModel model) {
+  const auto object = std::make_shared<ModelObject>();
+  object->context = std::move(context);
+  object->info = info_of(model);
+  object->model = std::make_shared<const LandmarkModel>(std::move(model));
+  return publish(object);
+}
+
+// What is wrong inside a file should name the file.
+LandmarkModel parse_file(const std::filesystem::path& path) {
+  const auto bytes = read_file(path);
+  try {
+    return parse_model(bytes);
+  } catch (const Error& error) {
+    const auto name = path.u8string();
+    throw Error(error.status(), std::string(name.begin(), name.end()) + ": " + error.what(), error.hint());
+  }
+}
+
+}  // namespace
+}  // namespace focal
+
+using namespace focal;
+
+focal_status focal_train_params_init(focal_train_params* params, size_t struct_size) {
+  return guarded([&] { init_struct(params, struct_size); });
+}
+
+focal_status focal_train_params_set_preset(focal_train_params* params, focal_preset preset) {
+  return guarded([&] { write_result(params, to_abi(TrainParams::from_preset(checked_preset(preset)))); });
+}
+
+focal_status focal_model_train(const focal_training_set* set, const focal_train_params* params,
+                               focal_task* task, focal_model** out_model) {
+  return guarded([&] {
+    require(out_model, "out_model");
+    const auto object = resolve<TrainingSetObject>(set);
+    const TrainParams how = checked(params);
+    const TaskLease lease(task);
+    const Execution execution = object->context->execution_with(lease.task());
+    execution.check_cancelled();
+    *out_model = publish_model(object->context, train(object->set, how, execution));
+  });
+}
+
+focal_status focal_model_load(const focal_context* context, const char* path, focal_model** out_model) {
+  return guarded([&] {
+    require(out_model, "out_model");
+    auto running = resolve<ContextObject>(context);
+    *out_model = publish_model(std::move(running), parse_file(path_of(path)));
+  });
+}
+
+focal_status focal_model_load_memory(const focal_context* context, const void* data, uint64_t size,
+                                     focal_model** out_model) {
+  return guarded([&] {
+    require(out_model, "out_model");
+    auto running = resolve<ContextObject>(context);
+    *out_model = publish_model(std::move(running), parse_model(bytes_of(data, size)));
+  });
+}
+
+focal_status focal_model_save(const focal_model* model, const char* path) {
+  return guarded([&] {
+    const auto object = resolve<ModelObject>(model);
+    write_file_atomically(path_of(path), serialise(*object->model));
+  });
+}
+
+focal_status focal_model_save_memory(const focal_model* model, focal_blob** out_blob) {
+  return guarded([&] {
+    require(out_blob, "out_blob");
+    const auto object = resolve<ModelObject>(model);
+    const auto blob = std::make_shared<BlobObject>();
+    blob->bytes = serialise(*object->model);
+    *out_blob = publish(blob);
+  });
+}
+
+focal_status focal_model_destroy(focal_model* model) { return remove_handle(model, HandleType::model); }
+
+focal_status focal_model_info_init(focal_model_info* info, size_t struct_size) {
+  return guarded([&] { init_struct(info, struct_size); });
+}
+
+focal_status focal_model_get_info(const focal_model* model, focal_model_info* out_info) {
+  return guarded([&] {
+    const auto object = resolve<ModelObject>(model);
+    const ModelInfo& from = object->info;
+    focal_model_info info{};
+    info.preset = static_cast<focal_preset>(from.params.preset);
+    info.landmark_count = static_cast<uint32_t>(from.landmark_names.size());
+    info.shape_count = static_cast<uint32_t>(from.shape_count);
+    info.mean_vertex_count = static_cast<uint64_t>(from.mean_vertex_count);
+    info.sample_count = static_cast<uint64_t>(from.sample_count);
+    info.tree_node_count = static_cast<uint64_t>(from.tree_node_count);
+    info.file_bytes = serialise(*object->model).size();
+    write_result(out_info, info);
+  });
+}
+
+focal_status focal_model_get_train_params(const focal_model* model, focal_train_params* out_params) {
+  return guarded([&] { write_result(out_params, to_abi(resolve<ModelObject>(model)->info.params)); });
+}
+
+const char* focal_model_landmark_name(const focal_model* model, uint32_t index) {
+  return guarded_value<const char*>(nullptr, [&] {
+    return text_at(resolve<ModelObject>(model)->info.landmark_names, index, "the model", "landmarks");
+  });
+}

@@ -1,0 +1,87 @@
+// Structs that grow: every one begins with struct_size, the size its caller was compiled with.
+#pragma once
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <type_traits>
+
+#include "base/error.h"
+
+namespace focal {
+
+// No struct will ever be this large, so a struct_size above it comes from memory that was never initialised.
+inline constexpr size_t kLargestStruct = 4096;
+
+// What a caller must know of each struct. `first_size` is its size in the first release and stays.
+template <class T>
+struct
+    StructTraits;  // static constexpr const char* name; static constexpr size_t first_size; static T defaults()
+
+template <class T>
+void check_struct_size(size_t size) {
+  static_assert(std::is_trivially_copyable_v<T> && offsetof(T, struct_size) == 0);
+  if (size >= StructTraits<T>::first_size && size <= kLargestStruct) return;
+  const std::string name = StructTraits<T>::name;
+  throw Error(Status::invalid_argument,
+              name + ".struct_size is " + std::to_string(size) + ", at least " +
+                  std::to_string(StructTraits<T>::first_size) + " expected",
+              "fill the struct with " + name + "_init(&it, sizeof it) first");
+}
+
+template <class T>
+void require_struct(const T* given) {
+  if (!given)
+    throw Error(Status::invalid_argument, std::string("the ") + StructTraits<T>::name + " is NULL",
+                "pass the address of a struct");
+}
+
+template <class T>
+void write_struct(T* given, size_t size, const T& value) {
+  auto* bytes = reinterpret_cast<unsigned char*>(given);
+  const size_t known = std::min(size, sizeof(T));
+  std::memcpy(bytes, &value, known);
+  std::memset(bytes + known, 0, size - known);
+  given->struct_size = static_cast<uint32_t>(size);
+}
+
+// *_init.
+template <class T>
+void init_struct(T* given, size_t size) {
+  require_struct(given);
+  check_struct_size<T>(size);
+  write_struct(given, size, StructTraits<T>::defaults());
+}
+
+// Parameters: NULL gives the defaults, and so do fields that an older caller does not have.
+template <class T>
+T read_struct(const T* given) {
+  T value = StructTraits<T>::defaults();
+  if (!given) return value;
+  const size_t size = given->struct_size;
+  check_struct_size<T>(size);
+  const auto* bytes = reinterpret_cast<const unsigned char*>(given);
+  const auto is_set = [](unsigned char byte) { return byte != 0; };
+  if (size > sizeof(T) && std::any_of(bytes + sizeof(T), bytes + size, is_set))
+    throw Error(Status::unsupported,
+                std::string(StructTraits<T>::name) + " sets a field this library does not know",
+                "use a newer library, or leave the new fields 0");
+  std::memcpy(&value, bytes, std::min(size, sizeof(T)));
+  return value;
+}
+
+// Results: fills what the caller has room for.
+template <class T>
+void write_result(T* out, const T& value) {
+  require_struct(out);
+  check_struct_size<T>(out->struct_size);
+  write_struct(out, out->struct_size, value);
+}
+
+// Throws invalid_argument unless low <= value <= high; NaN is outside.
+void check_range(const char* name, double value, double low, double high);
+void check_flag(const char* name, int32_t value);
+void check_reserved(const char* name, int64_t value);
+
+}  // namespace focal

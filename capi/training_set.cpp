@@ -1,0 +1,104 @@
+#include "training_set.h"
+
+#include <string>
+#include <unordered_set>
+#include <utility>
+
+#include "base/error.h"
+#include "boundary.h"
+#include "mesh.h"
+#include "structs.h"
+#include "surface_points.h"
+
+namespace focal {
+namespace {
+
+std::vector<std::string> checked_names(const char* const* names, uint64_t count) {
+  require(names, "landmark_names");
+  check_range("landmark_count", static_cast<double>(count), 1, 4096);
+  std::vector<std::string> result;
+  std::unordered_set<std::string> seen;
+  for (uint64_t i = 0; i < count; ++i) {
+    if (!names[i] || !*names[i])
+      throw Error(Status::invalid_argument, "landmark name " + std::to_string(i) + " is empty",
+                  "give every landmark a name");
+    if (!seen.insert(names[i]).second)
+      throw Error(Status::invalid_argument, std::string("two landmarks are named \"") + names[i] + "\"",
+                  "give every landmark its own name");
+    result.emplace_back(names[i]);
+  }
+  return result;
+}
+
+// place(prepared mesh, number, name) gives the mark with that number, or nothing where it is absent.
+template <class Place>
+void add(focal_training_set* handle, const focal_mesh* mesh, const void* marks, uint64_t count,
+         Place&& place) {
+  const auto object = resolve<TrainingSetObject>(handle);
+  const auto prepared = resolve<MeshObject>(mesh)->mesh;
+  const auto& names = object->set.landmark_names;
+  require(marks, "landmarks");
+  if (count != names.size())
+    throw Error(
+        Status::invalid_argument,
+        std::to_string(count) + " landmarks given, the training set has " + std::to_string(names.size()),
+        "give one for each name, in the same order; an absent one has no triangle or vertex");
+  MarkedShape shape{prepared, {}};
+  for (size_t i = 0; i < names.size(); ++i) {
+    const std::string name =
+        "landmark \"" + names[i] + "\" of training mesh " + std::to_string(object->set.shapes.size());
+    shape.marks.push_back(place(*prepared, i, name));
+  }
+  object->set.shapes.push_back(std::move(shape));
+}
+
+}  // namespace
+}  // namespace focal
+
+using namespace focal;
+
+focal_status focal_training_set_create(const focal_context* context, const char* const* landmark_names,
+                                       uint64_t landmark_count, focal_training_set** out_set) {
+  return guarded([&] {
+    require(out_set, "out_set");
+    const auto object = std::make_shared<TrainingSetObject>();
+    object->context = resolve<ContextObject>(context);
+    object->set.landmark_names = checked_names(landmark_names, landmark_count);
+    *out_set = publish(object);
+  });
+}
+
+focal_status focal_training_set_destroy(focal_training_set* set) {
+  return remove_handle(set, HandleType::training_set);
+}
+
+focal_status focal_training_set_add(focal_training_set* set, const focal_mesh* mesh,
+                                    const focal_surface_point* landmarks, uint64_t landmark_count) {
+  return guarded([&] {
+    add(set, mesh, landmarks, landmark_count,
+        [&](const PreparedMesh& prepared, size_t i, const std::string& name) -> std::optional<SurfacePoint> {
+          if (landmarks[i].triangle == FOCAL_NO_TRIANGLE) return std::nullopt;
+          return point_in(prepared, landmarks[i], name);
+        });
+  });
+}
+
+focal_status focal_training_set_add_vertices(focal_training_set* set, const focal_mesh* mesh,
+                                             const uint32_t* vertices, uint64_t landmark_count) {
+  return guarded([&] {
+    add(set, mesh, vertices, landmark_count,
+        [&](const PreparedMesh& prepared, size_t i, const std::string& name) -> std::optional<SurfacePoint> {
+          if (vertices[i] == FOCAL_NO_VERTEX) return std::nullopt;
+          return vertex_in(prepared, vertices[i], name);
+        });
+  });
+}
+
+uint64_t focal_training_set_landmark_count(const focal_training_set* set) {
+  return guarded_value<uint64_t>(0,
+                                 [&] { return resolve<TrainingSetObject>(set)->set.landmark_names.size(); });
+}
+
+uint64_t focal_training_set_mesh_count(const focal_training_set* set) {
+  return guarded_value<uint64_t>(0, [&] { return resolve<TrainingSetObject>(set)->set.shapes.size(); });
+}

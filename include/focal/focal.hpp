@@ -1,0 +1,212 @@
+// focal.hpp - focal.h with owners and exceptions for C++17 and later. Header only; every call is one call of focal.h,
+// whose rules hold.
+//
+//   focal::Context context;
+//   focal::Model model(context, "humans.focal");
+//   focal::Mesh mesh(context, "character.glb");
+//   for (const focal_landmark& landmark : model.detect(mesh).landmarks()) use(landmark.name, landmark.position);
+#ifndef FOCAL_HPP
+#define FOCAL_HPP
+
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "focal/focal.h"
+
+namespace focal {
+inline namespace abi {
+
+class Error : public std::runtime_error {
+ public:
+  Error(focal_status status, const std::string& text) : std::runtime_error(text), status_(status) {}
+  focal_status status() const noexcept { return status_; }
+
+ private:
+  focal_status status_;
+};
+
+inline void check(focal_status status) {
+  if (status != FOCAL_OK) throw Error(status, focal_last_error());
+}
+
+// A struct of focal.h with its struct_size and defaults: auto params = focal::init(focal_train_params_init);
+template <class T>
+T init(focal_status (*initialise)(T*, size_t)) {
+  T value;
+  check(initialise(&value, sizeof value));
+  return value;
+}
+
+// Owns one handle; moves, never copies.
+template <class Handle, focal_status (*destroy)(Handle*)>
+class Owner {
+ public:
+  Owner() = default;
+  explicit Owner(Handle* handle) : handle_(handle) {}
+  Owner(Owner&& other) noexcept : handle_(std::exchange(other.handle_, nullptr)) {}
+  Owner& operator=(Owner&& other) noexcept {
+    std::swap(handle_, other.handle_);
+    return *this;
+  }
+  ~Owner() { destroy(handle_); }
+  Handle* get() const noexcept { return handle_; }
+  explicit operator bool() const noexcept { return handle_ != nullptr; }
+
+ protected:
+  Handle* handle_ = nullptr;
+};
+
+class Context : public Owner<focal_context, focal_context_destroy> {
+ public:
+  explicit Context(const focal_context_params* params = nullptr) {
+    check(focal_context_create(params, &handle_));
+  }
+  focal_backend backend() const { return focal_context_backend(handle_); }
+  std::string backend_reason() const { return focal_context_backend_reason(handle_); }
+  int thread_count() const { return focal_context_thread_count(handle_); }
+};
+
+class Task : public Owner<focal_task, focal_task_destroy> {
+ public:
+  Task() { check(focal_task_create(&handle_)); }
+  void cancel() { check(focal_task_cancel(handle_)); }
+  void reset() { check(focal_task_reset(handle_)); }
+  double progress() const { return focal_task_progress(handle_); }
+  const char* stage() const { return focal_task_stage(handle_); }
+  bool is_cancelled() const { return focal_task_is_cancelled(handle_) != 0; }
+};
+
+class Blob : public Owner<focal_blob, focal_blob_destroy> {
+ public:
+  using Owner::Owner;
+  const void* data() const { return focal_blob_data(handle_); }
+  size_t size() const { return static_cast<size_t>(focal_blob_size(handle_)); }
+};
+
+class Mesh : public Owner<focal_mesh, focal_mesh_destroy> {
+ public:
+  Mesh(const Context& context, const std::string& path, const focal_mesh_params* params = nullptr) {
+    check(focal_mesh_load_gltf(context.get(), path.c_str(), params, &handle_));
+  }
+  Mesh(const Context& context, const void* gltf, size_t size, const focal_mesh_params* params = nullptr) {
+    check(focal_mesh_load_gltf_memory(context.get(), gltf, size, params, &handle_));
+  }
+  Mesh(const Context& context, const focal_mesh_desc& desc, const focal_mesh_params* params = nullptr) {
+    check(focal_mesh_create(context.get(), &desc, params, &handle_));
+  }
+  focal_mesh_info info() const {
+    auto info = init(focal_mesh_info_init);
+    check(focal_mesh_get_info(handle_, &info));
+    return info;
+  }
+  const float* positions() const { return focal_mesh_positions(handle_); }
+  const uint32_t* triangles() const { return focal_mesh_triangles(handle_); }
+  std::vector<std::string> warnings() const {
+    std::vector<std::string> result;
+    for (uint32_t i = 0, count = info().warning_count; i < count; ++i)
+      result.emplace_back(focal_mesh_warning(handle_, i));
+    return result;
+  }
+};
+
+class Detection : public Owner<focal_detection, focal_detection_destroy> {
+ public:
+  using Owner::Owner;
+  // The names are borrowed from this detection.
+  std::vector<focal_landmark> landmarks() const {
+    std::vector<focal_landmark> result(info().landmark_count, init(focal_landmark_init));
+    for (size_t i = 0; i < result.size(); ++i)
+      check(focal_detection_get_landmark(handle_, static_cast<uint32_t>(i), &result[i]));
+    return result;
+  }
+  focal_detection_info info() const {
+    auto info = init(focal_detection_info_init);
+    check(focal_detection_get_info(handle_, &info));
+    return info;
+  }
+  focal_stage_seconds seconds() const {
+    auto seconds = init(focal_stage_seconds_init);
+    check(focal_detection_get_seconds(handle_, &seconds));
+    return seconds;
+  }
+  std::vector<std::string> warnings() const {
+    std::vector<std::string> result;
+    for (uint32_t i = 0, count = info().warning_count; i < count; ++i)
+      result.emplace_back(focal_detection_warning(handle_, i));
+    return result;
+  }
+  std::vector<float> votes(uint32_t landmark) const {
+    std::vector<float> result(static_cast<size_t>(info().vertex_count));
+    check(focal_detection_votes(handle_, landmark, result.size(), result.data()));
+    return result;
+  }
+  void write_gltf(const std::string& path) const { check(focal_detection_write_gltf(handle_, path.c_str())); }
+  void write_votes_gltf(const std::string& path) const {
+    check(focal_detection_write_votes_gltf(handle_, path.c_str()));
+  }
+};
+
+class TrainingSet : public Owner<focal_training_set, focal_training_set_destroy> {
+ public:
+  TrainingSet(const Context& context, const std::vector<std::string>& landmark_names) {
+    std::vector<const char*> names;
+    for (const std::string& name : landmark_names) names.push_back(name.c_str());
+    check(focal_training_set_create(context.get(), names.data(), names.size(), &handle_));
+  }
+  void add(const Mesh& mesh, const std::vector<focal_surface_point>& landmarks) {
+    check(focal_training_set_add(handle_, mesh.get(), landmarks.data(), landmarks.size()));
+  }
+  void add_vertices(const Mesh& mesh, const std::vector<uint32_t>& vertices) {
+    check(focal_training_set_add_vertices(handle_, mesh.get(), vertices.data(), vertices.size()));
+  }
+};
+
+class Model : public Owner<focal_model, focal_model_destroy> {
+ public:
+  Model(const TrainingSet& set, const focal_train_params* params = nullptr, Task* task = nullptr) {
+    check(focal_model_train(set.get(), params, task ? task->get() : nullptr, &handle_));
+  }
+  Model(const Context& context, const std::string& path) {
+    check(focal_model_load(context.get(), path.c_str(), &handle_));
+  }
+  Model(const Context& context, const void* data, size_t size) {
+    check(focal_model_load_memory(context.get(), data, size, &handle_));
+  }
+  void save(const std::string& path) const { check(focal_model_save(handle_, path.c_str())); }
+  Blob save() const {
+    focal_blob* blob = nullptr;
+    check(focal_model_save_memory(handle_, &blob));
+    return Blob(blob);
+  }
+  focal_model_info info() const {
+    auto info = init(focal_model_info_init);
+    check(focal_model_get_info(handle_, &info));
+    return info;
+  }
+  focal_train_params train_params() const {
+    auto params = init(focal_train_params_init);
+    check(focal_model_get_train_params(handle_, &params));
+    return params;
+  }
+  std::vector<std::string> landmark_names() const {
+    std::vector<std::string> result;
+    for (uint32_t i = 0, count = info().landmark_count; i < count; ++i)
+      result.emplace_back(focal_model_landmark_name(handle_, i));
+    return result;
+  }
+  Detection detect(const Mesh& mesh, const focal_detect_params* params = nullptr,
+                   Task* task = nullptr) const {
+    focal_detection* detection = nullptr;
+    check(focal_model_detect(handle_, mesh.get(), params, task ? task->get() : nullptr, &detection));
+    return Detection(detection);
+  }
+};
+
+}  // namespace abi
+}  // namespace focal
+
+#endif  // FOCAL_HPP
