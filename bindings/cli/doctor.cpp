@@ -1,0 +1,57 @@
+// focal doctor: what this installation is and can do.
+#include <iostream>
+#include <thread>
+
+#include "options.h"
+#include "output.h"
+#include "text_table.h"
+
+namespace focal_cli {
+namespace {
+
+Json diagnosis(const focal_context* context) {
+  const auto limits = initialised(focal_mesh_params_init);
+  return {{"version", focal_version_string()},
+          {"backend",
+           {{"used", backend_name(focal_context_backend(context))},
+            {"reason", focal_context_backend_reason(context)}}},
+          {"threads",
+           {{"used", focal_context_thread_count(context)}, {"cores", std::thread::hardware_concurrency()}}},
+          {"limits",
+           {{"max_vertices", limits.max_vertices},
+            {"max_nodes", limits.max_nodes},
+            {"max_json_bytes", limits.max_json_bytes},
+            {"max_file_bytes", limits.max_file_bytes}}},
+          {"peak_memory_bytes", focal_peak_memory_bytes()}};
+}
+
+void print_diagnosis(const Json& report) {
+  const auto number = [](const Json& value) { return value.dump(); };
+  const Json& limits = report["limits"];
+  print_facts(std::cout,
+              {{"focal", report["version"].get<std::string>()},
+               {"backend", report["backend"]["used"].get<std::string>() + " (" +
+                               report["backend"]["reason"].get<std::string>() + ")"},
+               {"threads",
+                number(report["threads"]["used"]) + " of " + number(report["threads"]["cores"]) + " cores"},
+               {"largest mesh",
+                number(limits["max_vertices"]) + " vertices, " + number(limits["max_nodes"]) + " nodes"},
+               {"largest file", bytes_text(limits["max_file_bytes"].get<double>()) + ", its JSON " +
+                                    bytes_text(limits["max_json_bytes"].get<double>())}});
+}
+
+}  // namespace
+
+void add_doctor(CLI::App& app) {
+  CLI::App* verb = app.add_subcommand("doctor", "Show version, backend and why, threads and limits");
+  const auto options = std::make_shared<CommonOptions>();
+  add_common_options(*verb, *options);
+  verb->callback([options] {
+    const Context context = make_context(*options);
+    const Json report = diagnosis(context.get());
+    if (options->json) print_json(report);
+    if (options->prints_text()) print_diagnosis(report);
+  });
+}
+
+}  // namespace focal_cli

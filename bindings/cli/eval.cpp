@@ -1,0 +1,83 @@
+// focal eval: how well a model finds the marks of a set.
+#include <iostream>
+
+#include "command_error.h"
+#include "output.h"
+#include "parameters.h"
+#include "progress.h"
+#include "report.h"
+
+namespace focal_cli {
+namespace {
+
+struct Options : CommonOptions {
+  std::string model, set, split = "test";
+  size_t limit = 0;
+  std::vector<std::string> subset;
+  focal_quality quality = FOCAL_QUALITY_BEST;
+};
+
+void check_some_known(const focal_model* model, const std::set<std::string>& counted,
+                      const std::string& set) {
+  for (const std::string& name : landmark_names_of(model)) {
+    if (counted.contains(name)) return;
+  }
+  throw CommandError("the model knows none of the landmarks of set '" + set + "'",
+                     "'focal info MODEL' lists its landmarks; use a set with the same names");
+}
+
+void evaluate(const Options& options) {
+  const SetFolder set = read_set(options.set);
+  const std::vector<std::string> names = set.meshes(options.split, options.limit);
+  const std::set<std::string> counted = counted_landmarks(set, options.subset);
+  const Context context = make_context(options);
+  Progress progress(options.quiet);
+  const auto model = owned<Model>(focal_model_load, context.get(), options.model.c_str());
+  check_some_known(model.get(), counted, set.name);
+  auto params = detect_params_of(options.quality, options);
+  params.keep_votes = 0;
+  std::vector<MeshOutcome> outcomes;
+  for (size_t i = 0; i < names.size(); ++i) {
+    focal_task* task = progress.begin(names[i], i, names.size());
+    const MarkedMesh mesh = load_marked_mesh(context.get(), set, names[i]);
+    outcomes.push_back(evaluate_mesh(model.get(), mesh, set, counted, params, task));
+  }
+  progress.clear();
+  const Summary summary = summarise(outcomes);
+  auto info = initialised(focal_model_info_init);
+  check(focal_model_get_info(model.get(), &info));
+  Json report = {{"set", set.name}, {"model", options.model}, {"preset", preset_name(info.preset)}};
+  report["meshes"] = Json::array();
+  for (const MeshOutcome& mesh : outcomes) report["meshes"].push_back(mesh_json(mesh));
+  add_summary(report, summary);
+  if (options.json) print_json(report);
+  if (!options.prints_text()) return;
+  print_meshes(std::cout, outcomes);
+  print_summary(std::cout, summary);
+}
+
+}  // namespace
+
+void add_eval(CLI::App& app) {
+  CLI::App* verb = app.add_subcommand("eval", "Measure a model on the marked meshes of a set");
+  const auto options = std::make_shared<Options>();
+  verb->add_option("MODEL", options->model, "Model file")->type_name("")->required();
+  verb->add_option("SET", options->set, "Folder with set.json, NAME.glb and NAME.landmarks.json")
+      ->type_name("")
+      ->required();
+  verb->add_option("--split", options->split, "Meshes to measure on: train, test, extra or all")
+      ->type_name("NAME")
+      ->capture_default_str();
+  verb->add_option("--limit", options->limit, "Only the first N meshes")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber.description(""));
+  verb->add_option("--subset", options->subset, "Count only these landmarks")
+      ->type_name("NAME,NAME,...")
+      ->delimiter(',')
+      ->expected(1);
+  add_quality_option(*verb, options->quality);
+  add_common_options(*verb, *options);
+  verb->callback([options] { evaluate(*options); });
+}
+
+}  // namespace focal_cli

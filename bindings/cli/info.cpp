@@ -1,0 +1,106 @@
+// focal info: what is in a model or a mesh.
+#include <array>
+#include <fstream>
+#include <iostream>
+
+#include "marked_mesh.h"
+#include "options.h"
+#include "output.h"
+#include "report.h"
+#include "text_table.h"
+
+namespace focal_cli {
+namespace {
+
+struct Options : CommonOptions {
+  std::string file;
+};
+
+bool is_mesh(const std::string& path) {
+  std::array<char, 4> magic{};
+  std::ifstream(path, std::ios::binary).read(magic.data(), magic.size());
+  return path.ends_with(".gltf") || path.ends_with(".glb") || std::string_view(magic.data(), 4) == "glTF";
+}
+
+Json model_json(const focal_model* model, const std::string& path) {
+  auto info = initialised(focal_model_info_init);
+  auto params = initialised(focal_train_params_init);
+  check(focal_model_get_info(model, &info));
+  check(focal_model_get_train_params(model, &params));
+  return {{"kind", "model"},
+          {"file", path},
+          {"file_bytes", info.file_bytes},
+          {"preset", preset_name(info.preset)},
+          {"landmarks", landmark_names_of(model)},
+          {"shapes", info.shape_count},
+          {"mean_vertices", info.mean_vertex_count},
+          {"samples", info.sample_count},
+          {"tree_nodes", info.tree_node_count},
+          {"parameters",
+           {{"eigenpairs", params.eigenpair_count},
+            {"trees", params.tree_count},
+            {"min_leaf_samples", params.min_leaf_samples},
+            {"components_per_split", params.components_per_split},
+            {"sampling_rate", params.sampling_rate},
+            {"max_samples_per_shape", params.max_samples_per_shape},
+            {"seed", params.seed}}}};
+}
+
+Json mesh_json(const focal_mesh* mesh, const std::string& path) {
+  const focal_mesh_info info = info_of(mesh);
+  Json warnings = Json::array();
+  for (uint32_t i = 0; i < info.warning_count; ++i) warnings.push_back(focal_mesh_warning(mesh, i));
+  return {{"kind", "mesh"},
+          {"file", path},
+          {"vertices", info.vertex_count},
+          {"triangles", info.triangle_count},
+          {"surface_vertices", info.surface_vertex_count},
+          {"surface_triangles", info.surface_triangle_count},
+          {"mean_edge_length", info.mean_edge_length},
+          {"surface_area", info.surface_area},
+          {"seconds", {{"load", info.load_seconds}, {"repair", info.repair_seconds}}},
+          {"warnings", warnings}};
+}
+
+std::string plain_text(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (!value.is_array()) return value.dump();
+  std::string list;
+  for (const Json& entry : value) list += (list.empty() ? "" : ", ") + plain_text(entry);
+  return list.empty() ? "-" : list;
+}
+
+void print_text(const Json& report) {
+  std::vector<std::pair<std::string, std::string>> facts;
+  for (const auto& [key, value] : report.items()) {
+    if (!value.is_object()) facts.emplace_back(key, plain_text(value));
+    if (!value.is_object()) continue;
+    for (const auto& [inner, number] : value.items())
+      facts.emplace_back(key + "." + inner, plain_text(number));
+  }
+  for (auto& [name, value] : facts) std::replace(name.begin(), name.end(), '_', ' ');
+  print_facts(std::cout, facts);
+}
+
+void info(const Options& options) {
+  const Context context = make_context(options);
+  const Json report =
+      is_mesh(options.file)
+          ? mesh_json(load_mesh(context.get(), options.file).get(), options.file)
+          : model_json(owned<Model>(focal_model_load, context.get(), options.file.c_str()).get(),
+                       options.file);
+  if (options.json) print_json(report);
+  if (options.prints_text()) print_text(report);
+}
+
+}  // namespace
+
+void add_info(CLI::App& app) {
+  CLI::App* verb = app.add_subcommand("info", "Show what is in a model or a mesh");
+  const auto options = std::make_shared<Options>();
+  verb->add_option("FILE", options->file, "Model file, .glb or .gltf")->type_name("")->required();
+  add_common_options(*verb, *options);
+  verb->callback([options] { info(*options); });
+}
+
+}  // namespace focal_cli

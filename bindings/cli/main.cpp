@@ -1,0 +1,44 @@
+// The `focal` command: a client of focal.h like any other. Exit status: 0 done, 1 the work failed, 2 usage.
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <iostream>
+
+#include "command_error.h"
+#include "options.h"
+
+namespace focal_cli {
+namespace {
+
+int run(int argc, char** argv) {
+  CLI::App app("Mark a few points on about ten meshes, learn them, find them on new meshes.", "focal");
+  app.set_version_flag("--version", std::string("focal ") + focal_version_string());
+  app.failure_message(CLI::FailureMessage::simple);
+  app.require_subcommand(1);
+  for (const auto add :
+       {add_train, add_detect, add_eval, add_cross_validate, add_info, add_convert, add_doctor}) {
+    add(app);
+  }
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  std::cout.flush();
+  if (!std::cout) throw CommandError("standard output could not be written", "is the disk full?");
+  return 0;
+}
+
+}  // namespace
+}  // namespace focal_cli
+
+int main(int argc, char** argv) {
+  try {
+    return focal_cli::run(argc, argv);
+  } catch (const focal_cli::CommandError& error) {
+    std::cerr << "focal: " << error.what() << "\n";
+    if (!error.hint.empty()) std::cerr << "hint: " << error.hint << "\n";
+  } catch (const std::exception& error) {
+    std::cerr << "focal: " << error.what() << "\n";
+  }
+  return 1;
+}

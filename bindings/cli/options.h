@@ -1,0 +1,39 @@
+// The options that every verb has.
+#pragma once
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "handles.h"
+
+namespace focal_cli {
+
+struct CommonOptions {
+  bool json = false;
+  bool quiet = false;
+  int32_t threads = 0;
+  focal_backend backend = FOCAL_BACKEND_AUTO;
+  std::optional<uint64_t> seed;
+
+  bool prints_text() const { return !json && !quiet; }
+};
+
+void add_common_options(CLI::App& verb, CommonOptions& options);
+
+// Says on stderr when the backend that was asked for could not be had.
+Context make_context(const CommonOptions& options);
+
+const char* backend_name(focal_backend backend);
+const char* preset_name(focal_preset preset);
+
+// The verbs, each in its own file; each adds its subcommand, which runs as the command line is parsed.
+void add_train(CLI::App& app);
+void add_detect(CLI::App& app);
+void add_eval(CLI::App& app);
+void add_cross_validate(CLI::App& app);
+void add_info(CLI::App& app);
+void add_convert(CLI::App& app);
+void add_doctor(CLI::App& app);
+
+}  // namespace focal_cli

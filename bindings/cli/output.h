@@ -1,0 +1,15 @@
+// What a verb says on stdout, and where it may write.
+#pragma once
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace focal_cli {
+
+using Json = nlohmann::ordered_json;
+
+void print_json(const Json& document);
+
+// Throws when the folder of an output file is missing: said before the long work, not after it.
+void check_output_folder(const std::string& path);
+
+}  // namespace focal_cli

@@ -1,0 +1,54 @@
+// The knobs of training and detection on the command line.
+#include "parameters.h"
+
+namespace focal_cli {
+namespace {
+
+// An option of a few words, each standing for a number of focal.h.
+void add_choice(CLI::App& verb, const std::string& name, int32_t& value, const std::string& help,
+                const std::string& words, const std::map<std::string, int32_t>& choices) {
+  verb.add_option(name, value, help)
+      ->type_name(words)
+      ->transform(CLI::CheckedTransformer(choices).description(""));
+}
+
+}  // namespace
+
+void add_train_options(CLI::App& verb, TrainOptions& options) {
+  add_choice(verb, "--preset", options.preset, "default: measures best; paper: Xia et al. 2016 to the letter",
+             "default|paper", {{"default", FOCAL_PRESET_DEFAULT}, {"paper", FOCAL_PRESET_PAPER}});
+  verb.add_option("--trees", options.trees, "Trees in each forest")
+      ->type_name("N")
+      ->check(CLI::Range(1, 10000));
+  verb.add_option("--eigenpairs", options.eigenpairs, "Eigenpairs of the Laplacian")
+      ->type_name("N")
+      ->check(CLI::Range(8, 2000));
+  verb.add_option("--sampling-rate", options.sampling_rate,
+                  "Share of each mesh's vertices that is learned from")
+      ->type_name("X")
+      ->check(CLI::Range(1e-6, 1.0).description(""));
+}
+
+focal_train_params train_params_of(const TrainOptions& options, const CommonOptions& common) {
+  auto params = initialised(focal_train_params_init);
+  check(focal_train_params_set_preset(&params, options.preset));
+  params.tree_count = options.trees.value_or(params.tree_count);
+  params.eigenpair_count = options.eigenpairs.value_or(params.eigenpair_count);
+  params.sampling_rate = options.sampling_rate.value_or(params.sampling_rate);
+  params.seed = common.seed.value_or(params.seed);
+  return params;
+}
+
+void add_quality_option(CLI::App& verb, focal_quality& quality) {
+  add_choice(verb, "--quality", quality, "best: with the slower refinements; interactive: for a viewport",
+             "best|interactive", {{"best", FOCAL_QUALITY_BEST}, {"interactive", FOCAL_QUALITY_INTERACTIVE}});
+}
+
+focal_detect_params detect_params_of(focal_quality quality, const CommonOptions& common) {
+  auto params = initialised(focal_detect_params_init);
+  params.quality = quality;
+  params.seed = common.seed.value_or(params.seed);
+  return params;
+}
+
+}  // namespace focal_cli

@@ -1,0 +1,24 @@
+// The knobs of training and detection on the command line.
+#pragma once
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+#include "options.h"
+
+namespace focal_cli {
+
+struct TrainOptions {
+  focal_preset preset = FOCAL_PRESET_DEFAULT;
+  std::optional<int32_t> trees, eigenpairs;
+  std::optional<double> sampling_rate;
+};
+
+void add_train_options(CLI::App& verb, TrainOptions& options);
+focal_train_params train_params_of(const TrainOptions& options, const CommonOptions& common);
+
+// The knobs of detection that eval, detect and cross-validate share.
+void add_quality_option(CLI::App& verb, focal_quality& quality);
+focal_detect_params detect_params_of(focal_quality quality, const CommonOptions& common);
+
+}  // namespace focal_cli

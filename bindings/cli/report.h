@@ -1,0 +1,30 @@
+// What eval and cross-validate say: one mesh judged, and all of them as JSON and as tables.
+#pragma once
+#include <set>
+#include <span>
+#include <string>
+
+#include "evaluate.h"
+#include "marked_mesh.h"
+#include "output.h"
+
+namespace focal_cli {
+
+std::vector<std::string> landmark_names_of(const focal_model* model);
+
+// Detects on one mesh and compares with its marks. counted: the landmarks that count.
+MeshOutcome evaluate_mesh(const focal_model* model, const MarkedMesh& mesh, const SetFolder& set,
+                          const std::set<std::string>& counted, const focal_detect_params& params,
+                          focal_task* task);
+
+// The landmarks to count: those of --subset, or all. Throws when the set has none of that name.
+std::set<std::string> counted_landmarks(const SetFolder& set, const std::vector<std::string>& subset);
+
+Json mesh_json(const MeshOutcome& mesh);
+void add_summary(Json& document, const Summary& summary);
+
+void print_meshes(std::ostream& out, std::span<const MeshOutcome> meshes);
+void print_landmarks(std::ostream& out, std::span<const MeshOutcome> meshes);
+void print_summary(std::ostream& out, const Summary& summary);
+
+}  // namespace focal_cli
