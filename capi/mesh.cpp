@@ -1,12 +1,12 @@
 #include "mesh.h"
 
-#include <chrono>
 #include <limits>
 #include <utility>
 
 #include "arguments.h"
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/stopwatch.h"
 #include "boundary.h"
 #include "structs.h"
 #include "surface_points.h"
@@ -54,15 +54,6 @@ focal_mesh_params StructTraits<focal_mesh_params>::defaults() {
 }
 
 namespace {
-
-class Stopwatch {
- public:
-  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point start_ = Clock::now();
-};
 
 focal_mesh_params checked(const focal_mesh_params* given) {
   const focal_mesh_params params = read_struct(given);
@@ -128,7 +119,7 @@ TriangleMesh mesh_of(const focal_mesh_desc& desc) {
 
 // Prepares the surface and fills what the getters answer with.
 void finish(MeshObject& object, TriangleMesh source, const focal_mesh_params& params) {
-  const Stopwatch watch;
+  Stopwatch watch;
   PrepareParams prepare_params;
   prepare_params.weld = params.weld != 0;
   prepare_params.drop_degenerate = params.drop_degenerate != 0;
@@ -141,7 +132,7 @@ void finish(MeshObject& object, TriangleMesh source, const focal_mesh_params& pa
   object.surface_area = mesh->scale * mesh->scale * surface_area(mesh->surface);
   object.warnings.insert(object.warnings.end(), mesh->warnings.begin(), mesh->warnings.end());
   object.mesh = std::move(mesh);
-  object.repair_seconds = watch.seconds();
+  object.repair_seconds = watch.lap();
 }
 
 // read() gives the triangles, bytes() the file they came from.
@@ -150,7 +141,7 @@ focal_mesh* load(const focal_context* context, const focal_mesh_params* given, R
   const auto running = resolve<ContextObject>(context);
   const focal_mesh_params params = checked(given);
   const GltfReadParams how = read_params(params);
-  const Stopwatch watch;
+  Stopwatch watch;
   const auto object = std::make_shared<MeshObject>();
   GltfMesh gltf = read(how);
   object->warnings = std::move(gltf.warnings);
@@ -159,7 +150,7 @@ focal_mesh* load(const focal_context* context, const focal_mesh_params* given, R
     object->file = bytes(how);
     object->primitives = std::move(gltf.primitives);
   }
-  object->load_seconds = watch.seconds();
+  object->load_seconds = watch.lap();
   finish(*object, std::move(gltf.mesh), params);
   running->report_warnings(object->warnings);
   return publish(object);

@@ -1,0 +1,21 @@
+#!/bin/sh
+# The shared library exports exactly the functions of focal.h, and needs nothing but what may be there.
+# usage: exports.sh LIBRARY HEADER
+set -eu
+library=$1 header=$2
+exported=$(nm -D --defined-only "$library" | awk '$2 != "A" { sub(/@.*/, "", $3); print $3 }' | sort)
+declared=$(tr '\n' ' ' <"$header" | grep -o 'FOCAL_API [^;]*;' | grep -o 'focal_[a-z0-9_]*(' | tr -d '(' | sort)
+if [ "$exported" != "$declared" ]; then
+  echo "exported, but not in focal.h:"
+  printf '%s\n' "$exported" | while read -r name; do printf '%s\n' "$declared" | grep -qx "$name" || echo "  $name"; done
+  echo "in focal.h, but not exported:"
+  printf '%s\n' "$declared" | while read -r name; do printf '%s\n' "$exported" | grep -qx "$name" || echo "  $name"; done
+  exit 1
+fi
+needed=$(readelf -d "$library" | sed -n 's/.*(NEEDED).*\[\(.*\)\]/\1/p' |
+  grep -Ev '^(libc\.so|libm\.so|libmeshoptimizer\.so|ld-linux)' || true)
+if [ -n "$needed" ] && ! echo "$needed" | grep -q 'lib.san\.so'; then
+  echo "the library needs more than libc, libm and meshoptimizer:" $needed
+  exit 1
+fi
+echo "$(printf '%s\n' "$exported" | wc -l) functions, as declared"

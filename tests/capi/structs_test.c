@@ -1,0 +1,101 @@
+/* Parameter structs: defaults, presets, and every wrong struct_size. */
+#include "check.h"
+
+/* What a client compiled against a later header would hand in. */
+typedef struct later_train_params {
+  focal_train_params known;
+  uint64_t new_knob;
+} later_train_params;
+
+static void check_init(void) {
+  focal_train_params params;
+  CHECK_OK(focal_train_params_init(&params, sizeof params));
+  CHECK(params.struct_size == sizeof params);
+  CHECK(params.preset == FOCAL_PRESET_DEFAULT && params.tree_count == 30 && params.eigenpair_count == 200);
+  CHECK_REFUSED(focal_train_params_init(NULL, sizeof params), FOCAL_ERROR_INVALID_ARGUMENT, "is NULL");
+  CHECK_REFUSED(focal_train_params_init(&params, 4), FOCAL_ERROR_INVALID_ARGUMENT, "struct_size is 4");
+  CHECK_REFUSED(focal_train_params_init(&params, 1u << 20), FOCAL_ERROR_INVALID_ARGUMENT, "struct_size");
+}
+
+static void check_presets(void) {
+  focal_train_params params;
+  CHECK_OK(focal_train_params_init(&params, sizeof params));
+  params.tree_count = 1;
+  CHECK_OK(focal_train_params_set_preset(&params, FOCAL_PRESET_PAPER));
+  CHECK(params.preset == FOCAL_PRESET_PAPER && params.tree_count == 30 &&
+        params.struct_size == sizeof params);
+  CHECK_REFUSED(focal_train_params_set_preset(&params, 7), FOCAL_ERROR_INVALID_ARGUMENT, "preset is 7");
+}
+
+static focal_status train_with(const focal_train_params* params) {
+  focal_context* context = NULL;
+  focal_training_set* set = NULL;
+  focal_model* model = NULL;
+  const char* const names[] = {"nose"};
+  CHECK_OK(focal_context_create(NULL, &context));
+  CHECK_OK(focal_training_set_create(context, names, 1, &set));
+  const focal_status status = focal_model_train(set, params, NULL, &model);
+  CHECK(model == NULL);
+  focal_training_set_destroy(set);
+  focal_context_destroy(context);
+  return status;
+}
+
+static void check_sizes(void) {
+  later_train_params later;
+  CHECK_OK(focal_train_params_init(&later.known, sizeof later));
+  CHECK(later.known.struct_size == sizeof later && later.new_knob == 0);
+  /* The set is empty, so TOO_FEW_SHAPES says that the parameters were taken. */
+  CHECK(train_with(&later.known) == FOCAL_ERROR_TOO_FEW_SHAPES);
+  later.new_knob = 1;
+  CHECK_REFUSED(train_with(&later.known), FOCAL_ERROR_UNSUPPORTED, "does not know");
+  later.known.struct_size = 0;
+  CHECK_REFUSED(train_with(&later.known), FOCAL_ERROR_INVALID_ARGUMENT, "struct_size is 0");
+  later.known.struct_size = 0xCDCDCDCD;
+  CHECK_REFUSED(train_with(&later.known), FOCAL_ERROR_INVALID_ARGUMENT, "struct_size");
+}
+
+static void check_ranges(void) {
+  focal_train_params params;
+  CHECK_OK(focal_train_params_init(&params, sizeof params));
+  params.tree_count = 0;
+  CHECK_REFUSED(train_with(&params), FOCAL_ERROR_INVALID_ARGUMENT, "focal_train_params.tree_count is 0");
+  CHECK_OK(focal_train_params_init(&params, sizeof params));
+  params.sampling_rate = 1.5;
+  CHECK_REFUSED(train_with(&params), FOCAL_ERROR_INVALID_ARGUMENT, "focal_train_params.sampling_rate is 1.5");
+  CHECK_OK(focal_train_params_init(&params, sizeof params));
+  params.reserved = 1;
+  CHECK_REFUSED(train_with(&params), FOCAL_ERROR_UNSUPPORTED, "reserved");
+}
+
+static void check_context_params(void) {
+  focal_context_params params;
+  focal_context* context = NULL;
+  CHECK_OK(focal_context_params_init(&params, sizeof params));
+  params.thread_count = -1;
+  CHECK_REFUSED(focal_context_create(&params, &context), FOCAL_ERROR_INVALID_ARGUMENT, "thread_count is -1");
+  params.thread_count = 3;
+  params.backend = 9;
+  CHECK_REFUSED(focal_context_create(&params, &context), FOCAL_ERROR_INVALID_ARGUMENT, "backend is 9");
+  params.backend = FOCAL_BACKEND_CUDA; /* missing or not, it must not fail */
+  CHECK_OK(focal_context_create(&params, &context));
+  CHECK(focal_context_thread_count(context) == 3);
+  CHECK(focal_context_backend(context) != FOCAL_BACKEND_AUTO);
+  CHECK(focal_context_backend_reason(context) && *focal_context_backend_reason(context));
+  CHECK_REFUSED(focal_context_create(&params, NULL), FOCAL_ERROR_INVALID_ARGUMENT, "out_context is NULL");
+  focal_context_destroy(context);
+}
+
+int main(void) {
+  CHECK(focal_version() ==
+        (FOCAL_VERSION_MAJOR << 16 | FOCAL_VERSION_MINOR << 8 | (uint32_t)FOCAL_VERSION_PATCH));
+  CHECK(strcmp(focal_status_name(FOCAL_ERROR_TOO_FEW_SHAPES), "FOCAL_ERROR_TOO_FEW_SHAPES") == 0);
+  CHECK(strcmp(focal_status_name(12345), "FOCAL_ERROR_UNKNOWN") == 0);
+  CHECK(focal_peak_memory_bytes() > 100000);
+  check_init();
+  check_presets();
+  check_sizes();
+  check_ranges();
+  check_context_params();
+  FINISH();
+}
