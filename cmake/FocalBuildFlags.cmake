@@ -10,6 +10,7 @@ add_library(focal_flags INTERFACE)
 target_compile_features(focal_flags INTERFACE cxx_std_20)
 # A fused multiply-add rounds once where a product and a sum round twice: results would hang on the processor.
 target_compile_options(focal_flags INTERFACE -ffp-contract=off)
+target_compile_definitions(focal_flags INTERFACE EIGEN_MPL2_ONLY)  # no LGPL part of Eigen, ever
 if(FOCAL_ARCH AND CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
   check_cxx_compiler_flag(-march=${FOCAL_ARCH} FOCAL_HAS_ARCH_${FOCAL_ARCH})
   if(FOCAL_HAS_ARCH_${FOCAL_ARCH})

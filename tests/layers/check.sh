@@ -50,7 +50,7 @@ function fail(why) { print file ":" line ": " why; failures++ }
 function check(target,   parts, to) {
   if (target ~ /(^|\/)\.\.?\//) { fail("\"" target "\": write includes from the root of src, not by ./ or ../"); return }
   if (target ~ /^tiny_gltf/ && room != "gltf") fail("tinygltf is seen by src/gltf only")
-  if (target ~ /^(unsupported\/)?Eigen\// && file ~ /\.(h|hpp)$/ && file != "src/base/matrix.h")
+  if (target ~ /^(unsupported\/)?Eigen\// && file ~ /^(src|capi|include)\/.*\.(h|hpp)$/ && file != "src/base/matrix.h")
     fail("Eigen comes into headers through base/matrix.h only")
   to = room  # "x.h": a file beside this one
   if (split(target, parts, "/") > 1) to = parts[1] == "focal" ? "include" : parts[1]
