@@ -10,17 +10,20 @@ namespace focal {
 struct Execution {
   int thread_count = 0;  // 0: one a core
   Task* task = nullptr;  // may be null
+  bool reports = true;   // false inside a body of parallel_for: cancellable, but the outer loop tells the progress
   // The host's own parallel-for, or empty: run body(i) for i in [0, count) in any order, return when all are done.
   std::function<void(int64_t count, const std::function<void(int64_t)>& body)> host_parallel_for;
 
   int threads() const;
+  // For the stages inside a body of parallel_for: one thread, no progress of their own.
+  Execution inner() const { return {.thread_count = 1, .task = task, .reports = false, .host_parallel_for = {}}; }
   // Throws Error{cancelled} when the task was cancelled. Call it at least every few milliseconds of work.
   void check_cancelled() const;
   void begin_stage(const char* name, double from, double to) const {
-    if (task) task->begin_stage(name, from, to);
+    if (task && reports) task->begin_stage(name, from, to);
   }
   void report(double fraction) const {
-    if (task) task->report(fraction);
+    if (task && reports) task->report(fraction);
   }
 };
 

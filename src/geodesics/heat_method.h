@@ -15,6 +15,7 @@ class HeatMethod {
  public:
   static constexpr int lanes = SparseCholesky::lanes;
 
+  HeatMethod() = default;
   // t = time_factor * mean edge length squared, raised on meshes so large that heat would underflow at the far end.
   HeatMethod(const TriangleMesh& mesh, const Operators& operators, double time_factor = 1);
 

@@ -1,0 +1,65 @@
+#include "landmarks/leaf_votes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace focal {
+namespace {
+
+constexpr double bin_width = 0.0125;  // of sqrt(area): under an edge length of meshes of a few thousand vertices
+constexpr double smoothing = 0.024;   // standard deviation of the Gaussian, likewise; measured in the reference
+constexpr double mu = 5;              // Xia et al. 2016, Section 5
+
+std::vector<float> gaussian_kernel() {
+  const int32_t half = static_cast<int32_t>(std::ceil(4 * smoothing / bin_width));
+  std::vector<float> kernel(half + 1);
+  for (int32_t i = 0; i <= half; ++i)
+    kernel[i] = static_cast<float>(std::exp(-0.5 * std::pow(i * bin_width / smoothing, 2)) * bin_width /
+                                   (smoothing * std::sqrt(2 * std::numbers::pi)));
+  return kernel;
+}
+
+// bins x landmarks: how often the leaves' samples lie at each distance, all trees weighing the same.
+RowMatrixf leaf_histogram(const LandmarkModel& model, const float* descriptor, int32_t bins) {
+  RowMatrixf histogram = RowMatrixf::Zero(bins, model.targets.cols());
+  const auto& trees = model.forests[0].trees;
+  const float to_bin = model.reach / target_steps / static_cast<float>(bin_width);
+  for (const RegressionTree& tree : trees) {
+    const int32_t leaf = tree.leaf_of(descriptor);
+    const int32_t begin = tree.leaf_start[leaf], end = tree.leaf_start[leaf + 1];
+    const float weight = 1.0f / static_cast<float>((end - begin) * static_cast<int64_t>(trees.size()));
+    for (int32_t i = begin; i < end; ++i) {
+      const auto target = model.targets.row(tree.leaf_samples[i]);
+      for (Eigen::Index l = 0; l < target.size(); ++l)
+        if (target[l] != target_missing)
+          histogram(std::min(static_cast<int32_t>(static_cast<float>(target[l]) * to_bin), bins - 1), l) += weight;
+    }
+  }
+  return histogram;
+}
+
+}  // namespace
+
+VoteTables leaf_vote_tables(const LandmarkModel& model, const Eigen::Ref<const RowMatrixf>& descriptors,
+                            const Execution& execution) {
+  VoteTables tables;
+  tables.bin_width = bin_width;
+  tables.bins = static_cast<int32_t>(model.reach / bin_width) + 2;
+  tables.landmarks = static_cast<int32_t>(model.targets.cols());
+  tables.weight.assign(static_cast<size_t>(descriptors.rows()) * tables.bins * tables.landmarks, 0);
+  const std::vector<float> kernel = gaussian_kernel();
+  const auto half = static_cast<int32_t>(kernel.size()) - 1;
+  parallel_for(execution, descriptors.rows(), [&](int64_t s) {
+    const RowMatrixf histogram = leaf_histogram(model, descriptors.row(s).data(), tables.bins);
+    Eigen::Map<RowMatrixf> table(&tables.weight[s * tables.bins * tables.landmarks], tables.bins, tables.landmarks);
+    for (int32_t b = 0; b < tables.bins; ++b) {
+      for (int32_t k = -half; k <= half; ++k)  // the ends repeat
+        table.row(b) += kernel[std::abs(k)] * histogram.row(std::clamp(b + k, 0, tables.bins - 1));
+      table.row(b) *= static_cast<float>(std::exp(-mu * std::pow((b + 0.5) * bin_width, 2)));
+    }
+  });
+  return tables;
+}
+
+}  // namespace focal

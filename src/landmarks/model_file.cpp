@@ -1,0 +1,219 @@
+// A model as bytes. Every section has a pair of functions, one that writes it and one that reads it.
+#include "landmarks/model_file.h"
+
+#include <algorithm>
+#include <cstdint>
+
+#include "base/archive.h"
+#include "base/error.h"
+#include "landmarks/forest_file.h"
+
+namespace focal {
+namespace {
+
+constexpr ArchiveKind kind{"FOCALMDL", "model", 1, 0};
+constexpr int32_t landmark_limit = 4096, name_limit = 4096;
+constexpr int32_t most = std::numeric_limits<int32_t>::max();
+constexpr float any_number = 1e9F;  // of learned coefficients: finite, and no sum of a few overflows
+constexpr float longest = 1000;     // distance in units of sqrt(area)
+constexpr float least_spread = 1e-6F;
+
+bool is_utf8(std::string_view text) {
+  for (size_t i = 0; i < text.size();) {
+    const auto lead = static_cast<unsigned char>(text[i++]);
+    const int following = lead < 0x80   ? 0
+                          : lead < 0xC2 ? -1
+                          : lead < 0xE0 ? 1
+                          : lead < 0xF0 ? 2
+                          : lead < 0xF5 ? 3
+                                        : -1;
+    if (following < 0 || text.size() - i < static_cast<size_t>(following)) return false;
+    uint32_t code = following == 0 ? lead : lead & (0x3F >> following);
+    for (int k = 0; k < following; ++k, ++i) {
+      const auto next = static_cast<unsigned char>(text[i]);
+      if ((next & 0xC0) != 0x80) return false;
+      code = code << 6 | (next & 0x3F);
+    }
+    const bool overlong = (following == 2 && code < 0x800) || (following == 3 && code < 0x10000);
+    if (overlong || code > 0x10FFFF || (code >= 0xD800 && code < 0xE000)) return false;
+  }
+  return true;
+}
+
+std::span<const float> numbers(const RowMatrixf& matrix) {
+  return {matrix.data(), static_cast<size_t>(matrix.size())};
+}
+
+// --- INFO: names, parameters, what it was trained on
+
+void write_info(const LandmarkModel& model, ByteWriter& out) {
+  const TrainParams& params = model.params;
+  out.i32(static_cast<int32_t>(params.preset));
+  out.i32(params.eigenpair_count);
+  out.i32(params.tree_count);
+  out.i32(params.min_leaf_samples);
+  out.i32(params.components_per_split);
+  out.f64(params.sampling_rate);
+  out.i32(params.max_samples_per_shape);
+  out.u64(params.seed);
+  out.i32(model.shape_count);
+  out.i32(model.mean_vertex_count);
+  out.u32(static_cast<uint32_t>(model.landmark_names.size()));
+  for (const std::string& name : model.landmark_names) out.text(name);
+}
+
+void read_info(ByteReader in, LandmarkModel& model) {
+  TrainParams& params = model.params;
+  params.preset = static_cast<Preset>(in.i32("preset", 0, 1));
+  params.eigenpair_count = in.i32("eigenpair count", 1, most);
+  params.tree_count = in.i32("tree count", 1, most);
+  params.min_leaf_samples = in.i32("smallest leaf", 1, most);
+  params.components_per_split = in.i32("components a split", 1, most);
+  params.sampling_rate = in.f64("sampling rate", 0, 1);
+  params.max_samples_per_shape = in.i32("samples a shape", 1, most);
+  params.seed = in.u64("seed");
+  model.shape_count = in.i32("shape count", 1, most);
+  model.mean_vertex_count = in.i32("mean vertex count", 1, most);
+  const int32_t count = in.count("landmark count", 32, 1, landmark_limit);
+  for (int32_t l = 0; l < count; ++l) {
+    const std::string name = in.text("landmark name");
+    if (name.empty() || name.size() > name_limit || !is_utf8(name) || name.find('\0') != std::string::npos)
+      in.fail("a landmark name is not proper text");
+    const auto& names = model.landmark_names;
+    if (std::find(names.begin(), names.end(), name) != names.end()) in.fail("a landmark name is there twice");
+    model.landmark_names.push_back(name);
+  }
+  in.expect_end();
+}
+
+// --- TRGT: distances from the training samples to the landmarks
+
+void write_targets(const LandmarkModel& model, ByteWriter& out) {
+  out.f32(model.reach);
+  out.u32(static_cast<uint32_t>(model.targets.rows()));
+  for (Eigen::Index i = 0; i < model.targets.size(); ++i) out.u16(model.targets.data()[i]);
+}
+
+void read_targets(ByteReader in, LandmarkModel& model) {
+  const auto landmarks = static_cast<Eigen::Index>(model.landmark_names.size());
+  const bool default_preset = model.params.preset == Preset::default_preset;
+  model.reach = in.f32("reach", 1e-6F, longest);
+  const int32_t samples = in.count("sample count", uint64_t(landmarks) * 16, default_preset ? 1 : 0);
+  model.targets.resize(samples, samples > 0 ? landmarks : 0);
+  for (Eigen::Index i = 0; i < model.targets.size(); ++i) model.targets.data()[i] = in.u16("target");
+  in.expect_end();
+}
+
+// --- FRST
+
+void write_forests(const LandmarkModel& model, ByteWriter& out) {
+  out.u32(static_cast<uint32_t>(model.forests.size()));
+  for (const RegressionForest& forest : model.forests)
+    write_forest(forest, static_cast<int32_t>(model.targets.rows()), out);
+}
+
+void read_forests(ByteReader in, LandmarkModel& model) {
+  const bool default_preset = model.params.preset == Preset::default_preset;
+  const auto wanted = default_preset ? 1 : static_cast<int32_t>(model.landmark_names.size());
+  const int32_t count = in.count("forest count", 32, wanted, wanted);
+  const LeafKind leaves = default_preset ? LeafKind::samples : LeafKind::means;
+  const auto samples = static_cast<int32_t>(model.targets.rows());
+  for (int32_t f = 0; f < count; ++f)
+    model.forests.push_back(read_forest(in, leaves, model.params.tree_count, samples));
+  in.expect_end();
+}
+
+// --- CNST: what the training shapes say of the landmarks' distances and handedness; empty with preset paper
+
+void write_constellation(const LandmarkModel& model, ByteWriter& out) {
+  const ConstellationStatistics& constellation = model.constellation;
+  out.u32(static_cast<uint32_t>(constellation.landmarks));
+  out.f32s(numbers(constellation.distance_mean));
+  out.f32s(numbers(constellation.distance_sd));
+  out.f32s(constellation.handedness_mean);
+  out.f32s(constellation.handedness_sd);
+}
+
+void read_constellation(ByteReader in, LandmarkModel& model) {
+  const auto all = static_cast<int32_t>(model.landmark_names.size());
+  const int32_t none_or_all = model.params.preset == Preset::default_preset ? all : 0;
+  const int32_t L = in.count("landmark count", 64, none_or_all, all);
+  if (L != 0 && L != all) in.fail("the landmark count is not the model's");
+  ConstellationStatistics& constellation = model.constellation;
+  constellation.landmarks = L;
+  const auto matrix = [&](const char* what, float least, float largest) -> RowMatrixf {
+    const std::vector<float> values = in.f32s(what, static_cast<size_t>(L) * L, least, largest);
+    return Eigen::Map<const RowMatrixf>(values.data(), L, L);
+  };
+  constellation.distance_mean = matrix("mean distance", 0, longest);
+  constellation.distance_sd = matrix("distance deviation", least_spread, any_number);
+  const size_t triples = static_cast<size_t>(L) * L * L;
+  constellation.handedness_mean = in.f32s("mean handedness", triples, -2, 2);
+  constellation.handedness_sd = in.f32s("handedness deviation", triples, least_spread, any_number);
+  in.expect_end();
+}
+
+// --- CALB: confidence
+
+void write_calibration(const LandmarkModel& model, ByteWriter& out) {
+  const Calibration& calibration = model.calibration;
+  out.u32(static_cast<uint32_t>(calibration.typical_vote.size()));
+  out.f32s(calibration.typical_vote);
+  out.u32(Calibration::feature_count);
+  out.f32s(calibration.weight);
+  out.f32(calibration.near_error);
+  out.f32(calibration.far_error);
+  out.f32(calibration.fit_centre);
+  out.f32(calibration.fit_scale);
+}
+
+void read_calibration(ByteReader in, LandmarkModel& model) {
+  const auto all = static_cast<int32_t>(model.landmark_names.size());
+  const int32_t none_or_all = model.params.preset == Preset::default_preset ? all : 0;
+  const int32_t L = in.count("landmark count", 32, none_or_all, all);
+  if (L != 0 && L != all) in.fail("the landmark count is not the model's");
+  Calibration& calibration = model.calibration;
+  calibration.typical_vote = in.f32s("typical vote", static_cast<size_t>(L), 0, any_number);
+  in.count("feature count", 32, Calibration::feature_count, Calibration::feature_count);
+  for (float& weight : calibration.weight) weight = in.f32("weight", -any_number, any_number);
+  calibration.near_error = in.f32("near error", 0, longest);
+  calibration.far_error = in.f32("far error", 0, longest);
+  calibration.fit_centre = in.f32("fit centre", -any_number, any_number);
+  calibration.fit_scale = in.f32("fit scale", -any_number, any_number);
+  in.expect_end();
+}
+
+// Reading goes in this order: what later sections are checked against comes first.
+struct Section {
+  const char* name;
+  void (*write)(const LandmarkModel&, ByteWriter&);
+  void (*read)(ByteReader, LandmarkModel&);
+};
+constexpr Section sections[] = {
+    {"INFO", write_info, read_info},
+    {"TRGT", write_targets, read_targets},
+    {"FRST", write_forests, read_forests},
+    {"CNST", write_constellation, read_constellation},
+    {"CALB", write_calibration, read_calibration},
+};
+
+}  // namespace
+
+std::vector<std::byte> serialise(const LandmarkModel& model) {
+  std::vector<ArchiveSection> written;
+  for (const Section& section : sections) {
+    ByteWriter out;
+    section.write(model, out);
+    written.push_back({section.name, out.take()});
+  }
+  return write_archive(kind, written);
+}
+
+LandmarkModel parse_model(std::span<const std::byte> file) {
+  const Archive archive(kind, file);
+  LandmarkModel model;
+  for (const Section& section : sections) section.read(archive.section(section.name), model);
+  return model;
+}
+
+}  // namespace focal

@@ -1,0 +1,17 @@
+// A model as bytes: the .focal file. docs/model-format.md describes it.
+#pragma once
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "landmarks/model_parts.h"
+
+namespace focal {
+
+std::vector<std::byte> serialise(const LandmarkModel& model);
+
+// Believes nothing: a model that comes back can be used without further checks.
+// Throws invalid_file (not a model, truncated, damaged, contradictory) and unsupported_version.
+LandmarkModel parse_model(std::span<const std::byte> file);
+
+}  // namespace focal

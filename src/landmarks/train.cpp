@@ -1,0 +1,212 @@
+#include "landmarks/train.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+
+#include "base/error.h"
+#include "base/random.h"
+#include "landmarks/confidence.h"
+#include "landmarks/model_parts.h"
+#include "landmarks/paper.h"
+#include "landmarks/placement.h"
+#include "landmarks/surface_analysis.h"
+
+namespace focal {
+namespace {
+
+constexpr double disc_radius = 0.04;  // of sqrt(area), as in detection
+constexpr int32_t folds = 3;          // of the cross-fitted confidence
+
+// What the training keeps of one shape.
+struct LearnedShape {
+  RowMatrixf targets;               // samples x landmarks: distance to the mark, NaN where there is none
+  ConstellationSample constellation;
+};
+
+void validate(const TrainingSet& set, const TrainParams& params) {
+  const auto L = set.landmark_names.size();
+  if (L == 0)
+    throw Error(Status::invalid_argument, "the training set has no landmark names", "name at least one landmark");
+  if (params.tree_count < 1 || params.components_per_split < 1 || params.min_leaf_samples < 1 ||
+      params.eigenpair_count < 8 || params.max_samples_per_shape < 1 ||
+      !(params.sampling_rate > 0 && params.sampling_rate <= 1))
+    throw Error(Status::invalid_argument, "a training parameter is out of its range", "start from a preset");
+  if (set.shapes.size() < 2)
+    throw Error(Status::too_few_shapes,
+                "the training set has " + std::to_string(set.shapes.size()) + " mesh" + (set.shapes.size() == 1 ? "" : "es"),
+                "mark the landmarks on at least two meshes, better on ten");
+  for (size_t l = 0; l < L; ++l) {
+    const auto marked = std::count_if(set.shapes.begin(), set.shapes.end(),
+                                      [&](const MarkedShape& shape) { return shape.marks[l].has_value(); });
+    if (marked < 2)
+      throw Error(Status::too_few_shapes,
+                  "landmark '" + set.landmark_names[l] + "' is marked on " + std::to_string(marked) + " mesh" +
+                      (marked == 1 ? "" : "es"),
+                  "mark it on at least two meshes or leave it out");
+  }
+}
+
+float at_point(const PreparedMesh& mesh, const SurfacePoint& point, const float* field) {
+  double value = 0;
+  for (int i = 0; i < 3; ++i) value += point.barycentric[i] * field[mesh.surface.triangles(point.triangle, i)];
+  return static_cast<float>(value);
+}
+
+LearnedShape learn_shape(const MarkedShape& shape, const SurfaceAnalysis& analysis, const Execution& execution) {
+  const auto L = static_cast<int32_t>(shape.marks.size());
+  LearnedShape result;
+  std::vector<SurfacePoint> points;
+  std::vector<int32_t> landmark;
+  for (int32_t l = 0; l < L; ++l) {
+    result.constellation.present.push_back(shape.marks[l].has_value());
+    if (shape.marks[l]) points.push_back(*shape.marks[l]), landmark.push_back(l);
+  }
+  const RowMatrixf fields = analysis.heat.distances(points, execution);
+  result.targets = RowMatrixf::Constant(analysis.samples.size(), L, NAN);
+  auto& constellation = result.constellation;
+  constellation.distance = RowMatrixf::Zero(L, L);
+  constellation.directions = {RowMatrixf::Zero(L, L), RowMatrixf::Zero(L, L)};
+  const TangentDirections directions =
+      tangent_directions(shape.mesh->surface, points, fields, disc_radius, execution);
+  for (size_t a = 0; a < points.size(); ++a) {
+    for (size_t s = 0; s < analysis.samples.size(); ++s) result.targets(s, landmark[a]) = fields(a, analysis.samples[s]);
+    for (size_t b = 0; b < points.size(); ++b) {
+      constellation.distance(landmark[a], landmark[b]) = at_point(*shape.mesh, points[b], &fields(a, 0));
+      constellation.directions.x(landmark[a], landmark[b]) = directions.x(a, b);
+      constellation.directions.y(landmark[a], landmark[b]) = directions.y(a, b);
+    }
+  }
+  return result;
+}
+
+// Fills the parts of a `default` model that the given shapes teach: forest, targets, reach, constellation.
+void learn_parts(LandmarkModel& model, const std::vector<const SurfaceAnalysis*>& analyses,
+                 const std::vector<const LearnedShape*>& learned, const Execution& execution) {
+  Eigen::Index rows = 0;
+  for (const auto* shape : learned) rows += shape->targets.rows();
+  const auto L = static_cast<Eigen::Index>(model.landmark_names.size());
+  RowMatrixf descriptors(rows, analyses[0]->descriptors.cols()), targets(rows, L);
+  std::vector<ConstellationSample> constellations;
+  Eigen::Index row = 0;
+  for (size_t s = 0; s < learned.size(); ++s) {
+    descriptors.middleRows(row, learned[s]->targets.rows()) = analyses[s]->descriptors;
+    targets.middleRows(row, learned[s]->targets.rows()) = learned[s]->targets;
+    row += learned[s]->targets.rows();
+    constellations.push_back(learned[s]->constellation);
+  }
+  model.reach = 1.05f * targets.array().isNaN().select(0, targets).maxCoeff();
+  model.targets.resize(rows, L);
+  for (Eigen::Index l = 0; l < L; ++l) {
+    double sum = 0, count = 0;
+    for (Eigen::Index s = 0; s < rows; ++s)
+      if (!std::isnan(targets(s, l))) sum += targets(s, l), ++count;
+    for (Eigen::Index s = 0; s < rows; ++s) {
+      const bool missing = std::isnan(targets(s, l));
+      model.targets(s, l) = missing ? target_missing
+                                    : static_cast<uint16_t>(std::lround(targets(s, l) / model.reach * target_steps));
+      if (missing) targets(s, l) = static_cast<float>(sum / count);  // has no say in where the trees split
+    }
+  }
+  model.constellation = learn_constellation(constellations, static_cast<int32_t>(L));
+  const ForestParams forest{.tree_count = model.params.tree_count, .min_leaf_samples = model.params.min_leaf_samples,
+                            .min_split_samples = 2 * model.params.min_leaf_samples,
+                            .components_per_split = model.params.components_per_split, .seed = model.params.seed};
+  model.forests.assign(1, grow_forest(bin_descriptors(descriptors, execution), targets, forest, execution));
+}
+
+// Places the landmarks of every shape by a model that has not seen it, and learns from the outcome how far to trust.
+Calibration cross_fit(const LandmarkModel& model, const TrainingSet& set, const std::vector<SurfaceAnalysis>& analyses,
+                      const std::vector<LearnedShape>& learned, const Execution& execution) {
+  const auto count = static_cast<int32_t>(set.shapes.size());
+  const int32_t used_folds = std::min(folds, count);
+  std::vector<JudgedPlacement> judged;
+  Random random(model.params.seed, 77);
+  const auto order = sample_without_replacement(random, count, count);
+  for (int32_t fold = 0; fold < used_folds; ++fold) {
+    execution.begin_stage("confidence", 0.7 + 0.3 * fold / used_folds, 0.7 + 0.3 * (fold + 1) / used_folds);
+    LandmarkModel part;
+    part.landmark_names = model.landmark_names;
+    part.params = model.params;
+    std::vector<const SurfaceAnalysis*> kept;
+    std::vector<const LearnedShape*> lessons;
+    for (int32_t i = 0; i < count; ++i)
+      if (i % used_folds != fold) kept.push_back(&analyses[order[i]]), lessons.push_back(&learned[order[i]]);
+    learn_parts(part, kept, lessons, execution);
+    for (int32_t i = fold; i < count; i += used_folds) {
+      const MarkedShape& shape = set.shapes[order[i]];
+      const DetectParams detect;
+      StageSeconds ignored;
+      const auto limit = static_cast<int32_t>(detect.sampling_rate * shape.mesh->surface.vertex_count());
+      const Placement placement =
+          place_landmarks(part, *shape.mesh, analyses[order[i]], std::clamp(limit, 100, detect.max_samples), detect,
+                          execution, ignored);
+      for (size_t l = 0; l < shape.marks.size(); ++l) {
+        if (!shape.marks[l] || placement.vertex[l] < 0) continue;
+        const Vector3 placed = shape.mesh->surface.positions.row(placement.vertex[l]);
+        judged.push_back({static_cast<int32_t>(l), order[i], placement.evidence[l],
+                          (placed - position_of(shape.mesh->surface, *shape.marks[l])).norm()});
+      }
+    }
+  }
+  return calibrate(judged, static_cast<int32_t>(model.landmark_names.size()));
+}
+
+std::vector<SurfaceAnalysis> analyse_all(const TrainingSet& set, const TrainParams& params, const Execution& execution) {
+  std::vector<SurfaceAnalysis> analyses(set.shapes.size());
+  execution.begin_stage("analysis", 0, 0.4);
+  std::atomic<int32_t> done{0};
+  parallel_for(execution, static_cast<int64_t>(set.shapes.size()), [&](int64_t s) {
+    analyses[s] = analyse_surface(*set.shapes[s].mesh,
+                                  {.eigenpair_count = params.eigenpair_count, .sampling_rate = params.sampling_rate,
+                                   .max_samples = params.max_samples_per_shape, .seed = params.seed,
+                                   .stream = static_cast<uint64_t>(s)},
+                                  execution.inner());
+    execution.report(static_cast<double>(++done) / static_cast<double>(analyses.size()));
+  });
+  return analyses;
+}
+
+template <class T>
+std::vector<const T*> pointers(const std::vector<T>& values) {
+  std::vector<const T*> result;
+  for (const T& value : values) result.push_back(&value);
+  return result;
+}
+
+}  // namespace
+
+LandmarkModel train(const TrainingSet& set, const TrainParams& params, const Execution& execution) {
+  validate(set, params);
+  LandmarkModel model;
+  model.landmark_names = set.landmark_names;
+  model.params = params;
+  model.shape_count = static_cast<int32_t>(set.shapes.size());
+  int64_t vertices = 0;
+  for (const auto& shape : set.shapes) vertices += shape.mesh->surface.vertex_count();
+  model.mean_vertex_count = static_cast<int32_t>(vertices / model.shape_count);
+  const std::vector<SurfaceAnalysis> analyses = analyse_all(set, params, execution);
+  model.calibration.typical_vote.assign(set.landmark_names.size(), 0);
+  if (params.preset == Preset::paper) {
+    train_paper_forests(model, set, analyses, execution);
+    return model;
+  }
+  execution.begin_stage("distances", 0.4, 0.45);
+  std::vector<LearnedShape> learned;
+  for (size_t s = 0; s < set.shapes.size(); ++s)
+    learned.push_back(learn_shape(set.shapes[s], analyses[s], execution));
+  execution.begin_stage("forest", 0.45, 0.7);
+  learn_parts(model, pointers(analyses), pointers(learned), execution);
+  model.calibration = cross_fit(model, set, analyses, learned, execution);
+  return model;
+}
+
+ModelInfo info_of(const LandmarkModel& model) {
+  ModelInfo info{model.landmark_names, model.params, model.shape_count, model.mean_vertex_count, model.targets.rows(), 0};
+  for (const auto& forest : model.forests)
+    for (const auto& tree : forest.trees) info.tree_node_count += static_cast<int64_t>(tree.feature.size());
+  return info;
+}
+
+}  // namespace focal
