@@ -30,6 +30,11 @@ int64_t Element::column_size() const {
   return columns == 1 ? packed : (packed + 3) / 4 * 4;
 }
 
+int64_t Element::extent(int64_t entries, int64_t stride) const {
+  const int64_t last = column_size() * (columns - 1) + component_size(type) * (components / columns);
+  return (entries - 1) * stride + last;
+}
+
 Element element_of(const nlohmann::json& accessor, const Place& place) {
   struct Kind {
     std::string_view name;

@@ -19,8 +19,10 @@ struct Element {
   int32_t columns = 1;     // more than 1 for matrices, whose columns begin on multiples of 4 bytes
   int64_t count = 0;       // entries of the accessor
 
-  int64_t column_size() const;
+  int64_t column_size() const;  // with the padding that follows a column
   int64_t size() const { return column_size() * columns; }
+  // Bytes from the first entry to the end of the last, which needs no padding behind it.
+  int64_t extent(int64_t entries, int64_t stride) const;
 };
 
 // Throws invalid_file when the type, component type or count is none.

@@ -118,15 +118,16 @@ void check_view(const json& root, const json& view, const Place& place) {
   text(*compressed, "filter", place);
 }
 
-// Checks that `count` elements fit into the view that `owner` names.
-void check_elements(const json& root, const json& owner, const Place& place, int64_t count, int64_t size,
-                    bool may_be_strided) {
+// Checks that `count` entries fit into the view that `owner` names.
+void check_entries(const json& root, const json& owner, const Place& place, const Element& element,
+                   int64_t count, bool may_be_strided) {
   const int64_t index = reference(owner, "bufferView", place, count_of(root, "bufferViews"), true);
   const json& view = list(root, "bufferViews")[index];
   const int64_t offset = integer(owner, "byteOffset", place, 0, kMostBytes, 0);
+  const int64_t size = element.size();
   const int64_t stride = may_be_strided ? integer(view, "byteStride", place, 4, 252, size) : size;
   if (stride < size) fail_field(place, "bufferView", "has a stride smaller than an element");
-  if (offset + (count - 1) * stride + size > integer(view, "byteLength", place, 1, kMostBytes))
+  if (offset + element.extent(count, stride) > integer(view, "byteLength", place, 1, kMostBytes))
     fail_field(place, "count", "is " + std::to_string(count) + ", reaching beyond its buffer view");
 }
 
@@ -135,16 +136,17 @@ void check_sparse(const json& root, const json& sparse, const Place& place, cons
   const json* indices = object(sparse, "indices", place);
   const json* values = object(sparse, "values", place);
   if (!indices || !values) fail_field(place, "sparse", "lacks indices or values");
-  const auto type = static_cast<ComponentType>(integer(*indices, "componentType", place, 5121, 5125));
-  if (!is_index_type(type)) fail_field(place, "sparse", "has indices of a type that is none");
-  check_elements(root, *indices, place, count, component_size(type), false);
-  check_elements(root, *values, place, count, element.size(), false);
+  Element index;
+  index.type = static_cast<ComponentType>(integer(*indices, "componentType", place, 5121, 5125));
+  if (!is_index_type(index.type)) fail_field(place, "sparse", "has indices of a type that is none");
+  check_entries(root, *indices, place, index, count, false);
+  check_entries(root, *values, place, element, count, false);
 }
 
 void check_accessor(const json& root, const json& accessor, const Place& place) {
   const Element element = element_of(accessor, place);
   if (member(accessor, "bufferView"))
-    check_elements(root, accessor, place, element.count, element.size(), true);
+    check_entries(root, accessor, place, element, element.count, true);
   else if (member(accessor, "byteOffset"))
     fail_field(place, "byteOffset", "is given without a bufferView");
   if (const json* sparse = object(accessor, "sparse", place)) check_sparse(root, *sparse, place, element);

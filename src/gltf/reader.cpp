@@ -97,8 +97,6 @@ std::vector<Part> plan(const json& root, const std::vector<MeshPlacement>& place
   if (skipped > 0)
     warnings.push_back(std::to_string(skipped) +
                        " primitives of points or lines, or without positions, were skipped");
-  if (triangles == 0)
-    throw Error(Status::invalid_mesh, "the file holds no triangles", "pass a file with a triangle mesh");
   return parts;
 }
 
@@ -148,7 +146,7 @@ GltfMesh read(std::span<const std::byte> bytes, const GltfLimits& limits,
   GltfBuffers buffers(root, container, limits, std::move(folder));
   GltfMesh result;
   const auto parts = plan(root, placed_meshes(root, buffers, result.warnings), limits, result.warnings);
-  const GltfPrimitive& last = parts.back().range;
+  const GltfPrimitive last = parts.empty() ? GltfPrimitive{} : parts.back().range;
   result.mesh.positions.resize(last.first_vertex + last.vertex_count, 3);
   result.mesh.triangles.resize(last.first_triangle + last.triangle_count, 3);
   for (const Part& part : parts) {
@@ -159,6 +157,9 @@ GltfMesh read(std::span<const std::byte> bytes, const GltfLimits& limits,
     read_triangles(root, buffers, part, result.mesh.triangles);
     result.primitives.push_back(part.range);
   }
+  // Said last, since a buffer that cannot be read is the better explanation.
+  if (result.mesh.triangle_count() == 0)
+    throw Error(Status::invalid_mesh, "the file holds no triangles", "pass a file with a triangle mesh");
   return result;
 }
 

@@ -1,0 +1,220 @@
+// Landmarks put into the caller's own glTF document: new parts are made as text, parsed, and swapped into place, so
+// that the rest of the document is carried through untouched.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <string>
+
+#include "base/error.h"
+#include "gltf/glb.h"
+#include "gltf/json.h"
+#include "gltf/preflight.h"
+#include "gltf/writer.h"
+
+namespace focal {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kGroupName = "focal_landmarks";
+constexpr const char* kVersion = "1";
+
+// Swaps parsed text into `slot`; what was there is freed by the document that held the new part.
+void put(Json& slot, const std::string& text) {
+  OrderedJsonDocument part(std::as_bytes(std::span(text)), {});
+  slot.swap(part.root());
+}
+
+// A member, made as an empty value of this kind when missing.
+Json& member_or_new(Json& object, const char* key, Json::value_t kind) {
+  Json& value = object[key];
+  if (value.is_null()) value = Json(kind);
+  return value;
+}
+
+Json* find(Json& object, const char* key) {
+  const auto found = object.find(key);
+  return found == object.end() ? nullptr : &*found;
+}
+
+// extras.focal of an element, or null.
+Json* focal_extras(Json& element) {
+  Json* extras = find(element, "extras");
+  return extras ? find(*extras, "focal") : nullptr;
+}
+
+std::string describe(const GltfLandmark& landmark) {
+  return R"("status":)" + json_string(landmark.status) + R"(,"confidence":)" +
+         json_number(landmark.confidence);
+}
+
+void check(const GltfLandmark& landmark) {
+  const bool finite = landmark.position.cast<float>().allFinite() && landmark.point.barycentric.allFinite() &&
+                      std::isfinite(landmark.confidence);
+  if (!finite)
+    throw Error(Status::invalid_landmark, "landmark " + json_string(landmark.name) + " is not finite",
+                "leave it out or give it the status absent");
+}
+
+class LandmarkInserter {
+ public:
+  LandmarkInserter(Json& root, std::span<const GltfPrimitive> primitives)
+      : root_(root), primitives_(primitives) {}
+
+  void add_nodes(std::span<const GltfLandmark> landmarks);
+  void add_mesh_extras(std::span<const GltfLandmark> landmarks);
+
+ private:
+  Json& scene();
+  size_t take_node();
+  void release_former_nodes(Json& scene_nodes);
+  const GltfPrimitive& primitive_of(const GltfLandmark& landmark) const;
+
+  Json& root_;
+  std::span<const GltfPrimitive> primitives_;
+  std::vector<size_t> free_nodes_;  // of an earlier call, last first
+};
+
+// The scene that is shown, or the first. A file without any gets one that shows all its roots.
+Json& LandmarkInserter::scene() {
+  Json& scenes = member_or_new(root_, "scenes", Json::value_t::array);
+  const Json* chosen = find(root_, "scene");
+  if (!scenes.empty()) return scenes[chosen ? chosen->get<size_t>() : 0];
+  Json& nodes = member_or_new(root_, "nodes", Json::value_t::array);
+  std::vector<bool> is_child(nodes.size());
+  for (Json& node : nodes)
+    if (const Json* children = find(node, "children"))
+      for (const Json& child : *children) is_child[child.get<size_t>()] = true;
+  scenes.emplace_back(Json::value_t::object);
+  Json& roots = member_or_new(scenes[0], "nodes", Json::value_t::array);
+  for (size_t node = 0; node < is_child.size(); ++node)
+    if (!is_child[node]) roots.push_back(node);
+  root_["scene"] = 0;
+  return scenes[0];
+}
+
+// The group of an earlier call leaves the scene, and its nodes may be used again. (Removing them would renumber the
+// nodes behind them.) One to which the user has hung something of his own stays.
+void LandmarkInserter::release_former_nodes(Json& scene_nodes) {
+  Json& nodes = root_["nodes"];
+  const auto is_bare = [&](const Json& index) {
+    Json& node = nodes[index.get<size_t>()];
+    return focal_extras(node) && !find(node, "mesh") && !find(node, "camera") && !find(node, "skin");
+  };
+  const auto is_leaf = [&](const Json& index) {
+    return is_bare(index) && !find(nodes[index.get<size_t>()], "children");
+  };
+  const auto is_former_group = [&](const Json& index) {
+    const Json* children = find(nodes[index.get<size_t>()], "children");
+    return is_bare(index) && (!children || std::all_of(children->begin(), children->end(), is_leaf));
+  };
+  auto& roots = scene_nodes.get_ref<Json::array_t&>();
+  const auto former = std::stable_partition(roots.begin(), roots.end(), std::not_fn(is_former_group));
+  for (auto group = former; group != roots.end(); ++group) {
+    free_nodes_.push_back(group->get<size_t>());
+    if (const Json* children = find(nodes[group->get<size_t>()], "children"))
+      for (const Json& child : *children) free_nodes_.push_back(child.get<size_t>());
+  }
+  roots.erase(former, roots.end());
+  for (const size_t node : free_nodes_) put(nodes[node], "{}");
+  std::reverse(free_nodes_.begin(), free_nodes_.end());
+}
+
+size_t LandmarkInserter::take_node() {
+  Json& nodes = root_["nodes"];
+  if (free_nodes_.empty()) {
+    nodes.emplace_back(Json::value_t::object);
+    return nodes.size() - 1;
+  }
+  const size_t node = free_nodes_.back();
+  free_nodes_.pop_back();
+  return node;
+}
+
+void LandmarkInserter::add_nodes(std::span<const GltfLandmark> landmarks) {
+  Json& nodes = member_or_new(root_, "nodes", Json::value_t::array);
+  Json& scene_nodes = member_or_new(scene(), "nodes", Json::value_t::array);
+  release_former_nodes(scene_nodes);
+  const size_t group = take_node();
+  std::string children;
+  for (const GltfLandmark& landmark : landmarks) {
+    if (landmark.status == "absent") continue;
+    const size_t node = take_node();
+    put(nodes[node], R"({"name":)" + json_string(landmark.name) + R"(,"translation":)" +
+                         json_array(landmark.position) + R"(,"extras":{"focal":{)" + describe(landmark) +
+                         "}}}");
+    children += (children.empty() ? "" : ",") + std::to_string(node);
+  }
+  put(nodes[group], std::string(R"({"name":")") + kGroupName + R"(",)" +
+                        (children.empty() ? "" : R"("children":[)" + children + "],") +
+                        R"("extras":{"focal":{"version":)" + kVersion + "}}}");
+  scene_nodes.push_back(group);
+}
+
+const GltfPrimitive& LandmarkInserter::primitive_of(const GltfLandmark& landmark) const {
+  const auto holds = [&](const GltfPrimitive& primitive) {
+    const int32_t local = landmark.point.triangle - primitive.first_triangle;
+    return local >= 0 && local < primitive.triangle_count;
+  };
+  const auto found = std::find_if(primitives_.begin(), primitives_.end(), holds);
+  if (found == primitives_.end())
+    throw Error(Status::invalid_landmark,
+                "landmark " + json_string(landmark.name) + " lies on triangle " +
+                    std::to_string(landmark.point.triangle) + ", which the file does not have",
+                "pass the primitives read from this file");
+  return *found;
+}
+
+void LandmarkInserter::add_mesh_extras(std::span<const GltfLandmark> landmarks) {
+  std::map<int32_t, std::string> entries;  // per mesh
+  for (const GltfLandmark& landmark : landmarks) {
+    const bool placed = landmark.point.triangle >= 0;
+    if (!placed && primitives_.empty()) continue;
+    const GltfPrimitive& primitive = placed ? primitive_of(landmark) : primitives_.front();
+    std::string& text = entries[primitive.mesh];
+    text +=
+        (text.empty() ? "" : ",") + (R"({"name":)" + json_string(landmark.name)) + "," + describe(landmark);
+    if (placed) {
+      Vector3 weights = landmark.point.barycentric;
+      if (primitive.mirrored) std::swap(weights(1), weights(2));
+      text += R"(,"primitive":)" + std::to_string(primitive.primitive) + R"(,"triangle":)" +
+              std::to_string(landmark.point.triangle - primitive.first_triangle) + R"(,"barycentric":)" +
+              json_array(weights);
+    }
+    text += "}";
+  }
+  Json* meshes = find(root_, "meshes");
+  for (size_t mesh = 0; meshes && mesh < meshes->size(); ++mesh) {
+    Json& element = (*meshes)[mesh];
+    const auto entry = entries.find(static_cast<int32_t>(mesh));
+    if (entry == entries.end() && !focal_extras(element)) continue;
+    Json& extras = member_or_new(element, "extras", Json::value_t::object);
+    if (!extras.is_object())
+      continue;  // extras may be anything; another's number or text is not ours to replace
+    put(extras["focal"], std::string(R"({"version":)") + kVersion + R"(,"landmarks":[)" +
+                             (entry == entries.end() ? "" : entry->second) + "]}");
+  }
+}
+
+}  // namespace
+
+std::vector<std::byte> add_landmarks(std::span<const std::byte> source,
+                                     std::span<const GltfPrimitive> primitives,
+                                     std::span<const GltfLandmark> landmarks, const GltfLimits& limits) {
+  for (const GltfLandmark& landmark : landmarks) check(landmark);
+  const GltfContainer container = open_container(source, limits);
+  parse_gltf(container, limits);  // every reference followed below is checked here
+  OrderedJsonDocument document(container.json, {.depth = limits.json_depth, .values = limits.json_values});
+  LandmarkInserter inserter(document.root(), primitives);
+  inserter.add_nodes(landmarks);
+  inserter.add_mesh_extras(landmarks);
+  const std::string_view before(reinterpret_cast<const char*>(container.json.data()), container.json.size());
+  const bool indented = before.find('\n') != std::string_view::npos;
+  const std::string text = document.root().dump(indented ? 2 : -1);
+  if (container.binary) return glb_bytes(text, container.rest);
+  const auto bytes = std::as_bytes(std::span(text));
+  return {bytes.begin(), bytes.end()};
+}
+
+}  // namespace focal
