@@ -22,7 +22,7 @@ double smooth_step(double t) {
 
 }  // namespace
 
-Body::Body(std::vector<Sweep> sweeps, std::vector<int> mirror_bone, std::array<double, 9> asymmetry)
+Body::Body(std::vector<Sweep> sweeps, std::vector<int> mirror_bone, std::array<double, 6> asymmetry)
     : mirror_bone_(std::move(mirror_bone)), asymmetry_(asymmetry) {
   for (Sweep& shape : sweeps) {
     Prepared s;
@@ -79,9 +79,9 @@ double Body::Prepared::distance(const Vec3& point) const {
 // No creature is exactly symmetric: a gentle wave, a different one for each individual.
 Vec3 Body::warp(const Vec3& p) const {
   const auto& s = asymmetry_;
-  return p + Vec3(s[0] * std::sin(3 * p.y() + s[1]) + s[2] * std::sin(4 * p.z() + 2 * p.x()),
-                  s[3] * std::sin(3 * p.x() + s[4]) + s[5] * std::sin(4 * p.z() + p.x()),
-                  s[6] * std::sin(5 * p.y() + 2 * p.x() + s[7]) + s[8] * std::sin(3 * p.x()));
+  return p + Vec3(s[0] * std::sin(3 * p.y() + 2 * p.z() + s[1]),
+                  s[2] * std::sin(3 * p.x() + 2 * p.z() + s[3]),
+                  s[4] * std::sin(4 * p.y() + 2 * p.x() + s[5]));
 }
 
 double Body::distance(const Vec3& point) const {
@@ -100,20 +100,19 @@ double Body::distance(const Vec3& point) const {
   return total;
 }
 
+// From the four corners of a tetrahedron: four evaluations instead of six.
 Vec3 Body::gradient(const Vec3& p) const {
   constexpr double h = 1e-5;
-  Vec3 g;
-  for (int k = 0; k < 3; ++k) {
-    const Vec3 step = h * Vec3::Unit(k);
-    g[k] = (distance(p + step) - distance(p - step)) / (2 * h);
-  }
-  return g;
+  Vec3 g = Vec3::Zero();
+  for (const Vec3& corner : {Vec3(1, -1, -1), Vec3(-1, -1, 1), Vec3(-1, 1, -1), Vec3(1, 1, 1)})
+    g += corner * distance(p + h * corner);
+  return g / (4 * h);
 }
 
 Vec3 Body::project(Vec3 p) const {
   for (int i = 0; i < 4; ++i) {
     const double d = distance(p);
-    if (std::abs(d) < 1e-6) break;
+    if (std::abs(d) < 1e-5) break;
     const Vec3 g = gradient(p);
     p -= d / std::max(g.squaredNorm(), 0.1) * g;
   }

@@ -38,7 +38,7 @@ struct Sweep {
 class Body {
  public:
   // `mirror_bone[b]` is the bone of the other side, or b itself on the middle line.
-  Body(std::vector<Sweep> sweeps, std::vector<int> mirror_bone, std::array<double, 9> asymmetry);
+  Body(std::vector<Sweep> sweeps, std::vector<int> mirror_bone, std::array<double, 6> asymmetry);
 
   double distance(const Vec3& point) const;  // near the surface close to the true distance
   Vec3 gradient(const Vec3& point) const;
@@ -64,7 +64,7 @@ class Body {
 
   std::vector<Prepared> sweeps_;
   std::vector<int> mirror_bone_;
-  std::array<double, 9> asymmetry_;
+  std::array<double, 6> asymmetry_;
 };
 
 }  // namespace creatures

@@ -31,7 +31,7 @@ Design design_hand(Random& random);
 Design design_insect(Random& random);
 
 // Waves of at most about `size`, for Body.
-std::array<double, 9> random_asymmetry(Random& random, double size);
+std::array<double, 6> random_asymmetry(Random& random, double size);
 
 struct Family {
   std::string_view name, description;

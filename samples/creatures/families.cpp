@@ -3,10 +3,10 @@
 
 namespace creatures {
 
-std::array<double, 9> random_asymmetry(Random& random, double size) {
-  std::array<double, 9> waves;
-  for (int i : {0, 2, 3, 5, 6, 8}) waves[i] = random.uniform(-size, size);
-  for (int i : {1, 4, 7}) waves[i] = random.uniform(0, 6);
+std::array<double, 6> random_asymmetry(Random& random, double size) {
+  std::array<double, 6> waves;
+  for (int i : {0, 2, 4}) waves[i] = random.uniform(-size, size);
+  for (int i : {1, 3, 5}) waves[i] = random.uniform(0, 6);
   return waves;
 }
 

@@ -11,21 +11,21 @@ struct Build {
 };
 
 Build random_build(Random& random) {
-  const double weight = random.typical(0, 1);
+  const double weight = random.uniform(0, 1);
   Build b;
-  b.legs = random.typical(0.9, 1.1);
-  b.torso = random.typical(0.92, 1.08);
-  b.arms = random.typical(0.92, 1.08);
-  b.neck = random.typical(0.8, 1.25);
-  b.head = random.typical(0.98, 1.16);
-  b.shoulders = random.typical(0.92, 1.12);
-  b.hips = random.typical(0.92, 1.1) + 0.08 * weight;
-  b.limbs = random.typical(0.88, 1.08) + 0.14 * weight;
-  b.muscle = random.typical(0, 1);
-  b.belly = random.typical(-0.2, 0.5) + 0.6 * weight;
-  b.bust = random.typical(0, 1);
-  b.feet = random.typical(0.92, 1.1);
-  b.nose = random.typical(0.85, 1.2);
+  b.legs = random.typical(0.88, 1.12);
+  b.torso = random.typical(0.9, 1.1);
+  b.arms = random.typical(0.9, 1.1);
+  b.neck = random.typical(0.75, 1.25);
+  b.head = random.typical(0.96, 1.2);
+  b.shoulders = random.uniform(0.92, 1.14);
+  b.hips = random.uniform(0.9, 1.08) + 0.1 * weight;
+  b.limbs = random.uniform(0.86, 1.02) + 0.22 * weight;
+  b.muscle = random.uniform(0, 1);
+  b.belly = random.typical(-0.3, 0.5) + 0.9 * weight;
+  b.bust = random.uniform(-0.7, 1);
+  b.feet = random.typical(0.9, 1.12);
+  b.nose = random.typical(0.75, 1.1);
   b.arm_drop = random.uniform(40, 50);
   return b;
 }
@@ -47,8 +47,8 @@ Places place(const Build& b) {
   p.neck = {0, y + 0.52 * t, -0.025};
   p.head = p.neck + Vec3(0, 0.085 * b.neck, 0.02);
   p.crown = p.head + Vec3(0, 0.215 * b.head, -0.005);
-  p.clavicle = {0.03, y + 0.485 * t, 0};
-  p.shoulder = {0.178 * b.shoulders, y + 0.475 * t, -0.02};
+  p.clavicle = {0.03, y + 0.475 * t, 0};
+  p.shoulder = {0.172 * b.shoulders, y + 0.452 * t, -0.02};
   const double drop = b.arm_drop * EIGEN_PI / 180;
   p.arm = Vec3(std::cos(drop), -std::sin(drop), 0);
   p.elbow = p.shoulder + 0.275 * b.arms * p.arm;
@@ -109,6 +109,17 @@ void add_torso(std::vector<Sweep>& flesh, const Build& b, const Places& p, const
                              {bones.upper_chest, 0.70, 0.12},
                              {bones.neck, 0.98, 0.06}},
                    .blend = 0.05});
+  const Vec3 collar = p.neck + Vec3(0.03, -0.005, -0.005), outer = p.shoulder + Vec3(-0.015, 0.012, 0);
+  flesh.push_back(
+      {.from = collar,  // trapezius and collarbone
+       .to = outer,
+       .front = Vec3::UnitZ(),
+       .sections = {{0, 0.045, 0.045, 0.048, -0.005}, {0.6, 0.040, 0.044, 0.05}, {1, 0.04, 0.042, 0.045}},
+       .start_cap = 0.04,
+       .end_cap = 0.03,
+       .bones = {{bones.upper_chest}, {bones.shoulder, 0.5, 0.08}},
+       .blend = 0.06,
+       .paired = true});
   const double bust = 0.02 + 0.022 * b.bust;
   flesh.push_back({.from = Vec3(0.078 * s, p.chest.y() + 0.075 * b.torso, 0.078),
                    .to = Vec3(0.078 * s, p.chest.y() + 0.075 * b.torso, 0.078),
@@ -155,8 +166,8 @@ void add_head(std::vector<Sweep>& flesh, const Build& b, const Places& p, const 
   flesh.push_back({.from = p.head - Vec3(0, 0.005, 0) * h,
                    .to = p.head + Vec3(0, 0.14, 0) * h,
                    .front = Vec3::UnitZ(),
-                   .sections = {{0, 0.042 * h, 0.062 * h, 0.045 * h, 0.022 * h},
-                                {0.3, 0.060 * h, 0.078 * h, 0.068 * h, 0.012 * h},
+                   .sections = {{0, 0.050 * h, 0.062 * h, 0.045 * h, 0.022 * h},
+                                {0.3, 0.064 * h, 0.078 * h, 0.068 * h, 0.012 * h},
                                 {0.6, 0.069 * h, 0.086 * h, 0.088 * h, 0.004 * h},
                                 {1, 0.073 * h, 0.084 * h, 0.094 * h, 0.0}},
                    .start_cap = 0.03 * h,
@@ -164,12 +175,12 @@ void add_head(std::vector<Sweep>& flesh, const Build& b, const Places& p, const 
                    .bones = {{bones.head}},
                    .blend = 0.03,
                    .detail = 0.6});
-  flesh.push_back(ball({0, -0.008, 0.072}, {0.026, 0.02, 0.02}, 0.03, 0.03));         // chin
+  flesh.push_back(ball({0, -0.008, 0.066}, {0.026, 0.018, 0.02}, 0.03, 0.03));        // chin
   Sweep nose = ball({0, 0.052, 0.092}, {0.019, 0.015, 0.024 * b.nose}, 0.02, 0.018);  // nose, up to
   nose.to = p.head + h * Vec3(0, 0.098, 0.084);                                       // between the eyes
   nose.sections = {{0, 0.018 * h, 0.028 * h * b.nose, 0.02 * h}, {1, 0.011 * h, 0.010 * h, 0.01 * h}};
   flesh.push_back(nose);
-  Sweep brow = ball({0.028, 0.112, 0.074}, {0.03, 0.012, 0.018}, 0.02, 0.02);
+  Sweep brow = ball({0.028, 0.112, 0.071}, {0.03, 0.012, 0.016}, 0.02, 0.02);
   brow.paired = true;
   flesh.push_back(brow);
   Sweep eye = ball({0.031, 0.086, 0.092}, {0.018, 0.012, 0.012}, 0.012, 0.016);
@@ -323,11 +334,11 @@ std::vector<Freedom> freedoms(const Places& p, const Bones& bones) {
           {bones.upper_arm, y, -60, 25, true},
           {bones.upper_arm, z, -22, 75, true},
           {bones.shoulder, z, -4, 12, true},
-          {bones.lower_leg, x, 0, 95, true},
+          {bones.lower_leg, x, 0, 80, true},
           {bones.foot, x, -15, 25, true},
           {bones.upper_leg, y, -10, 25, true},
           {bones.upper_leg, z, -4, 25, true},
-          {bones.upper_leg, x, -75, 15, true}};
+          {bones.upper_leg, x, -65, 20, true}};
 }
 
 }  // namespace
@@ -342,7 +353,7 @@ Design design_humanoid(Random& random) {
   add_arm(flesh, build, places, bones);
   add_head(flesh, build, places, bones);
   return {bones.all, Body(flesh, bones.all.mirror, random_asymmetry(random, 0.0015)), anchors(build, places),
-          freedoms(places, bones), 0.0115};
+          freedoms(places, bones), 0.0125};
 }
 
 }  // namespace creatures

@@ -41,7 +41,7 @@ Lattice lattice_around(const Body& body, double cell, const Eigen::Quaterniond& 
 
 // Blocks that the surface cannot reach get one value; the others one a lattice point.
 void sample(Lattice& lattice, const Body& body) {
-  constexpr int block = 8;
+  constexpr int block = 4;
   const double reach = 1.5 * lattice.cell * 0.5 * block * std::sqrt(3.0);
   const Eigen::Array3i& n = lattice.count;
   lattice.values.resize(static_cast<size_t>(n[0]) * n[1] * n[2]);
