@@ -2,7 +2,6 @@
 
 #include <limits>
 
-#include "base/error.h"
 #include "boundary.h"
 
 namespace focal {
@@ -12,6 +11,11 @@ std::filesystem::path path_of(const char* path) {
     throw Error(Status::invalid_argument, path ? "the path is empty" : "the path is NULL",
                 "pass a file's path");
   return std::filesystem::path(reinterpret_cast<const char8_t*>(path));
+}
+
+std::string text_of(const std::filesystem::path& path) {
+  const auto text = path.u8string();
+  return {text.begin(), text.end()};
 }
 
 std::span<const std::byte> bytes_of(const void* data, uint64_t size) {

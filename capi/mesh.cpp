@@ -1,6 +1,8 @@
 #include "mesh.h"
 
+#include <filesystem>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "arguments.h"
@@ -135,23 +137,40 @@ void finish(MeshObject& object, TriangleMesh source, const focal_mesh_params& pa
   object.repair_seconds = watch.lap();
 }
 
-// read() gives the triangles, bytes() the file they came from.
-template <class Read, class Bytes>
-focal_mesh* load(const focal_context* context, const focal_mesh_params* given, Read&& read, Bytes&& bytes) {
+struct LoadedFile {
+  GltfMesh gltf;
+  std::vector<std::byte> bytes;  // when they are to be kept
+};
+
+LoadedFile read_path(const std::filesystem::path& path, const GltfReadParams& how, bool keep) {
+  auto bytes = read_file(path, how.limits.file_bytes);
+  // Only by its path does a file find those beside it.
+  GltfMesh gltf = how.allow_external_files ? read_gltf(path, how) : read_gltf_memory(bytes, how);
+  if (!keep) bytes.clear();
+  return {std::move(gltf), std::move(bytes)};
+}
+
+LoadedFile read_bytes(std::span<const std::byte> bytes, const GltfReadParams& how, bool keep) {
+  GltfMesh gltf = read_gltf_memory(bytes, how);
+  if (!keep) bytes = {};
+  return {std::move(gltf), {bytes.begin(), bytes.end()}};
+}
+
+// read(how, keep) gives a LoadedFile.
+template <class Read>
+focal_mesh* load(const focal_context* context, const focal_mesh_params* given, Read&& read) {
   const auto running = resolve<ContextObject>(context);
   const focal_mesh_params params = checked(given);
   const GltfReadParams how = read_params(params);
-  Stopwatch watch;
   const auto object = std::make_shared<MeshObject>();
-  GltfMesh gltf = read(how);
-  object->warnings = std::move(gltf.warnings);
-  object->limits = how.limits;
-  if (params.keep_source_file) {
-    object->file = bytes(how);
-    object->primitives = std::move(gltf.primitives);
-  }
+  Stopwatch watch;
+  LoadedFile loaded = read(how, params.keep_source_file != 0);
   object->load_seconds = watch.lap();
-  finish(*object, std::move(gltf.mesh), params);
+  object->file = std::move(loaded.bytes);
+  object->primitives = std::move(loaded.gltf.primitives);
+  object->warnings = std::move(loaded.gltf.warnings);
+  object->limits = how.limits;
+  finish(*object, std::move(loaded.gltf.mesh), params);
   running->report_warnings(object->warnings);
   return publish(object);
 }
@@ -190,9 +209,10 @@ focal_status focal_mesh_load_gltf(const focal_context* context, const char* path
   return guarded([&] {
     require(out_mesh, "out_mesh");
     const auto file = path_of(path);
-    *out_mesh = load(
-        context, params, [&](const GltfReadParams& how) { return read_gltf(file, how); },
-        [&](const GltfReadParams& how) { return read_file(file, how.limits.file_bytes); });
+    naming_file(file, [&] {
+      *out_mesh = load(context, params,
+                       [&](const GltfReadParams& how, bool keep) { return read_path(file, how, keep); });
+    });
   });
 }
 
@@ -201,9 +221,8 @@ focal_status focal_mesh_load_gltf_memory(const focal_context* context, const voi
   return guarded([&] {
     require(out_mesh, "out_mesh");
     const auto bytes = bytes_of(data, size);
-    *out_mesh = load(
-        context, params, [&](const GltfReadParams& how) { return read_gltf_memory(bytes, how); },
-        [&](const GltfReadParams&) { return std::vector<std::byte>(bytes.begin(), bytes.end()); });
+    *out_mesh = load(context, params,
+                     [&](const GltfReadParams& how, bool keep) { return read_bytes(bytes, how, keep); });
   });
 }
 

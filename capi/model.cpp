@@ -86,17 +86,6 @@ focal_model* publish_model(std::shared_ptr<const ContextObject> context, Landmar
   return publish(object);
 }
 
-// What is wrong inside a file should name the file.
-LandmarkModel parse_file(const std::filesystem::path& path) {
-  const auto bytes = read_file(path);
-  try {
-    return parse_model(bytes);
-  } catch (const Error& error) {
-    const auto name = path.u8string();
-    throw Error(error.status(), std::string(name.begin(), name.end()) + ": " + error.what(), error.hint());
-  }
-}
-
 }  // namespace
 }  // namespace focal
 
@@ -127,7 +116,8 @@ focal_status focal_model_load(const focal_context* context, const char* path, fo
   return guarded([&] {
     require(out_model, "out_model");
     auto running = resolve<ContextObject>(context);
-    *out_model = publish_model(std::move(running), parse_file(path_of(path)));
+    const auto file = path_of(path);
+    naming_file(file, [&] { *out_model = publish_model(std::move(running), parse_model(read_file(file))); });
   });
 }
 

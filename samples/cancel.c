@@ -59,7 +59,8 @@ int main(int argc, char** argv) {
   if (focal_task_create(&work.task)) return failed();
   work.set = set;
   pthread_create(&thread, NULL, train, &work);
-  while (focal_task_progress(work.task) < 0.05) nanosleep(&pause, NULL); /* any place in the middle will do */
+  /* Any place in the middle will do. */
+  for (a = 0; a < 2000 && focal_task_progress(work.task) < 0.05; ++a) nanosleep(&pause, NULL);
   printf("cancelled in stage \"%s\" at %.0f %%\n", focal_task_stage(work.task),
          100 * focal_task_progress(work.task));
   cancelled = now();
