@@ -44,6 +44,10 @@ void ByteWriter::append(uint64_t value, int byte_count) {
 void ByteWriter::f32(float value) { u32(std::bit_cast<uint32_t>(value)); }
 void ByteWriter::f64(double value) { u64(std::bit_cast<uint64_t>(value)); }
 
+void ByteWriter::f32s(std::span<const float> values) {
+  for (const float value : values) f32(value);
+}
+
 void ByteWriter::text(std::string_view value) {
   u32(static_cast<uint32_t>(value.size()));
   raw(bytes_of(value));
@@ -91,6 +95,13 @@ double ByteReader::f64(const char* what, double least, double most) {
   const auto value = std::bit_cast<double>(u64(what));
   if (!(value >= least && value <= most)) fail(std::string(what) + " is not a number of its range");
   return value;
+}
+
+std::vector<float> ByteReader::f32s(const char* what, size_t count, float least, float most) {
+  if (count > rest_.size() / 4) fail(std::string(what) + " runs past the end");
+  std::vector<float> values(count);
+  for (float& value : values) value = f32(what, least, most);
+  return values;
 }
 
 int32_t ByteReader::count(const char* what, uint64_t item_bits, int32_t least, int32_t most) {

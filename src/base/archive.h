@@ -30,6 +30,7 @@ class ByteWriter {
   void i32(int32_t value) { append(static_cast<uint32_t>(value), 4); }
   void f32(float value);
   void f64(double value);
+  void f32s(std::span<const float> values);
   void text(std::string_view value);  // u32 length, then UTF-8
   void raw(std::span<const std::byte> bytes) { bytes_.insert(bytes_.end(), bytes.begin(), bytes.end()); }
   // Each value in `bits` bits (1..32), lowest first, the whole padded with zeros to a full byte.
@@ -56,6 +57,7 @@ class ByteReader {
             float most = std::numeric_limits<float>::max());
   double f64(const char* what, double least = std::numeric_limits<double>::lowest(),
              double most = std::numeric_limits<double>::max());
+  std::vector<float> f32s(const char* what, size_t count, float least, float most);
   // A u32 number of items that take at least `item_bits` each, so that no allocation outgrows the file.
   int32_t count(const char* what, uint64_t item_bits, int32_t least = 0,
                 int32_t most = std::numeric_limits<int32_t>::max());

@@ -54,7 +54,7 @@ void write_tree(const RegressionTree& tree, LeafKind leaves, int32_t sample_coun
 
 // Fills feature, threshold and child; returns the number of leaves.
 int32_t read_shape(ByteReader& in, RegressionTree& tree) {
-  const int32_t nodes = in.count("node count", 1, 1);
+  const int32_t nodes = in.count("node count", 16, 1);  // a node with its share of what follows takes more
   const std::vector<uint32_t> is_leaf = in.packed("node kind", static_cast<size_t>(nodes), 1, 1);
   const auto leaves = static_cast<int32_t>(std::count(is_leaf.begin(), is_leaf.end(), 1U));
   const int32_t inner_nodes = nodes - leaves;

@@ -233,7 +233,7 @@ std::vector<Plane> find_modes(const std::vector<Vote>& votes, const Execution& e
 
 // How the surface answers the reflection of one of its points: the point of the surface nearest to it.
 struct Answer {
-  Vector3 reflected, point;
+  Vector3 point;
   double distance, agreement;  // agreement of the normals, -1..1
 };
 
@@ -254,7 +254,7 @@ class Reflector {
     if (along.norm() > spacing) along *= spacing / along.norm();
     const Vector3 on_surface = site + along;
     const Vector3 image = plane.reflect_direction(cloud_.normals.row(probes_.cloud_index[probe]));
-    return {reflected, on_surface, (reflected - on_surface).norm(), image.dot(normal)};
+    return {on_surface, (reflected - on_surface).norm(), image.dot(normal)};
   }
 
  private:

@@ -1,0 +1,267 @@
+// The model file: what goes in comes out, old files stay readable, and no damage gets through.
+#include "landmarks/model_file.h"
+
+#include <doctest/doctest.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "base/crc32c.h"
+#include "base/error.h"
+#include "base/random.h"
+#include "descriptors/descriptor.h"
+#include "landmarks/small_model.h"
+
+using namespace focal;
+using focal_test::small_model;
+
+namespace {
+
+using Bytes = std::vector<std::byte>;
+
+void check_equal(const RegressionTree& a, const RegressionTree& b) {
+  CHECK(a.feature == b.feature);
+  CHECK(a.threshold == b.threshold);
+  CHECK(a.child == b.child);
+  CHECK(a.leaf_start == b.leaf_start);
+  CHECK(a.leaf_samples == b.leaf_samples);
+  CHECK(a.leaf_mean == b.leaf_mean);
+}
+
+void check_equal(const TrainParams& a, const TrainParams& b) {
+  CHECK(a.preset == b.preset);
+  CHECK(a.eigenpair_count == b.eigenpair_count);
+  CHECK(a.tree_count == b.tree_count);
+  CHECK(a.min_leaf_samples == b.min_leaf_samples);
+  CHECK(a.components_per_split == b.components_per_split);
+  CHECK(a.sampling_rate == b.sampling_rate);
+  CHECK(a.max_samples_per_shape == b.max_samples_per_shape);
+  CHECK(a.seed == b.seed);
+}
+
+void check_equal(const LandmarkModel& a, const LandmarkModel& b) {
+  CHECK(a.landmark_names == b.landmark_names);
+  check_equal(a.params, b.params);
+  CHECK(a.shape_count == b.shape_count);
+  CHECK(a.mean_vertex_count == b.mean_vertex_count);
+  REQUIRE(a.forests.size() == b.forests.size());
+  for (size_t f = 0; f < a.forests.size(); ++f) {
+    REQUIRE(a.forests[f].trees.size() == b.forests[f].trees.size());
+    for (size_t t = 0; t < a.forests[f].trees.size(); ++t)
+      check_equal(a.forests[f].trees[t], b.forests[f].trees[t]);
+  }
+  CHECK(a.targets == b.targets);
+  CHECK(a.reach == b.reach);
+  CHECK(a.constellation.landmarks == b.constellation.landmarks);
+  CHECK(a.constellation.distance_mean == b.constellation.distance_mean);
+  CHECK(a.constellation.distance_sd == b.constellation.distance_sd);
+  CHECK(a.constellation.handedness_mean == b.constellation.handedness_mean);
+  CHECK(a.constellation.handedness_sd == b.constellation.handedness_sd);
+  CHECK(a.calibration.typical_vote == b.calibration.typical_vote);
+  CHECK(std::ranges::equal(a.calibration.weight, b.calibration.weight));
+  CHECK(a.calibration.near_error == b.calibration.near_error);
+  CHECK(a.calibration.far_error == b.calibration.far_error);
+  CHECK(a.calibration.fit_centre == b.calibration.fit_centre);
+  CHECK(a.calibration.fit_scale == b.calibration.fit_scale);
+}
+
+Status status_of(std::span<const std::byte> file) {
+  try {
+    parse_model(file);
+    return Status::ok;
+  } catch (const Error& error) {
+    return error.status();
+  }
+}
+
+// The layout of docs/model-format.md, spelled out once more: a test of the file must not believe its writer.
+uint64_t number_at(const Bytes& file, size_t at, int bytes) {
+  uint64_t value = 0;
+  for (int i = 0; i < bytes; ++i) value |= static_cast<uint64_t>(file[at + i]) << (8 * i);
+  return value;
+}
+
+void put(Bytes& file, size_t at, uint32_t value) {
+  for (int i = 0; i < 4; ++i) file[at + i] = std::byte(value >> (8 * i));
+}
+
+// Makes every checksum right again, so that damage reaches the code behind them.
+void sign(Bytes& file) {
+  const std::span<const std::byte> all(file);
+  const auto sections = number_at(file, 24, 4);
+  for (size_t entry = 32; entry < 32 + sections * 24; entry += 24)
+    put(file, entry + 4, crc32c(all.subspan(number_at(file, entry + 8, 8), number_at(file, entry + 16, 8))));
+  put(file, 28, crc32c(all.subspan(32, sections * 24), crc32c(all.first(28))));
+}
+
+// Everything a detection would index by the model's own numbers.
+void walk(const LandmarkModel& model) {
+  Random random(1);
+  std::vector<float> descriptor(si_hks_dimension);
+  for (float& value : descriptor) value = static_cast<float>(random.normal());
+  for (const RegressionForest& forest : model.forests)
+    for (const RegressionTree& tree : forest.trees) {
+      const int32_t leaf = tree.leaf_of(descriptor.data());
+      if (!tree.leaf_mean.empty()) {
+        REQUIRE(leaf < static_cast<int32_t>(tree.leaf_mean.size()));
+        continue;
+      }
+      REQUIRE(tree.leaf_start.at(leaf) < tree.leaf_start.at(leaf + 1));
+      for (int32_t i = tree.leaf_start[leaf]; i < tree.leaf_start[leaf + 1]; ++i)
+        REQUIRE(tree.leaf_samples.at(i) < model.targets.rows());
+    }
+}
+
+std::filesystem::path golden_path(Preset preset) {
+  return std::filesystem::path(__FILE__).parent_path().parent_path() / "golden" /
+         (preset == Preset::paper ? "model_1_0_paper.focal" : "model_1_0_default.focal");
+}
+
+Bytes read_bytes(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  const std::vector<char> chars{std::istreambuf_iterator<char>(stream), {}};
+  const auto bytes = std::as_bytes(std::span(chars));
+  return {bytes.begin(), bytes.end()};
+}
+
+constexpr Preset presets[] = {Preset::default_preset, Preset::paper};
+
+}  // namespace
+
+TEST_CASE("a model comes back from its bytes as it was") {
+  for (const Preset preset : presets)
+    check_equal(parse_model(serialise(small_model(preset))), small_model(preset));
+}
+
+TEST_CASE("golden models of format 1.0 are still read, and read the same") {
+  for (const Preset preset : presets) {
+    const Bytes file = read_bytes(golden_path(preset));
+    REQUIRE(file.size() > 0);
+    check_equal(parse_model(file), small_model(preset));
+  }
+}
+
+// focal_tests --no-skip --test-case="write the golden models" makes them; only ever for a new format version.
+TEST_CASE("write the golden models" * doctest::skip()) {
+  for (const Preset preset : presets) {
+    const Bytes file = serialise(small_model(preset));
+    std::ofstream(golden_path(preset), std::ios::binary)
+        .write(reinterpret_cast<const char*>(file.data()), static_cast<std::streamsize>(file.size()));
+  }
+}
+
+TEST_CASE("every flipped bit and every truncation of a model is noticed") {
+  for (const Preset preset : presets) {
+    const Bytes file = serialise(small_model(preset));
+    int32_t unnoticed = 0;
+    for (size_t i = 0; i < file.size(); ++i)
+      for (int bit = 0; bit < 8; ++bit) {
+        Bytes damaged = file;
+        damaged[i] ^= std::byte(1 << bit);
+        unnoticed += status_of(damaged) == Status::ok;
+      }
+    for (size_t size = 0; size < file.size(); ++size)
+      unnoticed += status_of(std::span(file).first(size)) != Status::invalid_file;
+    CHECK(unnoticed == 0);
+  }
+}
+
+TEST_CASE("damage behind right checksums is refused or harmless") {
+  for (const Preset preset : presets) {
+    const Bytes file = serialise(small_model(preset));
+    int32_t refused = 0;
+    for (size_t i = 16; i < file.size(); ++i)
+      for (const int value : {0x00, 0x01, 0x7F, 0x80, 0xFF}) {
+        Bytes damaged = file;
+        const bool in_checksum = i >= 28 && i < 32;
+        if (in_checksum || damaged[i] == std::byte(value)) continue;
+        damaged[i] = std::byte(value);
+        if (i >= 32 + number_at(file, 24, 4) * 24)
+          sign(damaged);  // the table itself stays guarded by its checksum
+        try {
+          walk(parse_model(damaged));
+        } catch (const Error& error) {
+          CHECK(error.status() == Status::invalid_file);
+          ++refused;
+        }
+      }
+    CHECK(refused > 1000);
+  }
+}
+
+TEST_CASE("a model that contradicts itself is refused, by name") {
+  const auto message_of = [](const LandmarkModel& model) -> std::string {
+    try {
+      parse_model(serialise(model));
+      return "accepted";
+    } catch (const Error& error) {
+      CHECK(error.status() == Status::invalid_file);
+      return error.what();
+    }
+  };
+  const auto contains = [](const std::string& text, const char* part) {
+    return text.find(part) != std::string::npos;
+  };
+  LandmarkModel model = small_model(Preset::default_preset);
+  model.landmark_names[1] = "head";
+  CHECK(contains(message_of(model), "INFO: a landmark name is there twice"));
+  model.landmark_names[1] = "\xC3";
+  CHECK(contains(message_of(model), "INFO: a landmark name is not proper text"));
+  model = small_model(Preset::default_preset);
+  model.constellation.distance_sd(1, 2) = 0;
+  CHECK(contains(message_of(model), "CNST: distance deviation"));
+  model = small_model(Preset::default_preset);
+  model.reach = std::numeric_limits<float>::quiet_NaN();
+  CHECK(contains(message_of(model), "TRGT: reach"));
+  model = small_model(Preset::default_preset);
+  model.forests[0].trees[1].leaf_samples[0] = 7;  // fits the bits, not the samples
+  CHECK(contains(message_of(model), "FRST: leaf sample"));
+  model = small_model(Preset::default_preset);
+  model.calibration.typical_vote.pop_back();
+  CHECK(contains(message_of(model), "CALB: landmark count"));
+  model = small_model(Preset::paper);
+  model.forests.pop_back();
+  CHECK(contains(message_of(model), "FRST: forest count"));
+}
+
+TEST_CASE("what is not a model, and what is a newer one, are told apart") {
+  CHECK(status_of({}) == Status::invalid_file);
+  const Bytes noise(1000, std::byte('x'));
+  CHECK(status_of(noise) == Status::invalid_file);
+  Bytes file = serialise(small_model(Preset::paper));
+  file[12] = std::byte(2);
+  CHECK(status_of(file) == Status::unsupported_version);
+}
+
+TEST_CASE("a model of ten meshes of 12,500 vertices and 36 landmarks stays under 25 MB") {
+  const int32_t L = 36, samples = 62500, leaves = samples / 5;
+  LandmarkModel model = small_model(Preset::default_preset);
+  model.landmark_names.clear();
+  for (int32_t l = 0; l < L; ++l) model.landmark_names.push_back("landmark_" + std::to_string(l));
+  model.targets = TargetMatrix::Constant(samples, L, 12345);
+  RegressionTree tree;
+  for (int32_t node = 0; node < 2 * leaves - 1;
+       ++node) {  // a heap: inner nodes first, leaves of the smallest size
+    const bool leaf = node >= leaves - 1;
+    tree.feature.push_back(leaf ? -1 : node % si_hks_dimension);
+    tree.threshold.push_back(leaf ? 0 : static_cast<float>(node));
+    tree.child.push_back(leaf ? node - (leaves - 1) : 2 * node + 1);
+  }
+  for (int32_t leaf = 0; leaf <= leaves; ++leaf) tree.leaf_start.push_back(5 * leaf);
+  for (int32_t s = 0; s < samples; ++s) tree.leaf_samples.push_back(samples - 1 - s);
+  model.params.tree_count = 30;
+  model.forests[0].trees.assign(30, tree);
+  model.constellation.landmarks = L;
+  model.constellation.distance_mean = model.constellation.distance_sd = RowMatrixf::Constant(L, L, 1);
+  model.constellation.handedness_mean.assign(L * L * L, 0.5F);
+  model.constellation.handedness_sd.assign(L * L * L, 0.5F);
+  model.calibration.typical_vote.assign(L, 0.5F);
+  const Bytes file = serialise(model);
+  MESSAGE("file size: " << static_cast<double>(file.size()) / 1e6 << " MB");
+  CHECK(file.size() < 25'000'000);
+  const LandmarkModel back = parse_model(file);
+  CHECK(back.targets == model.targets);
+  check_equal(back.forests[0].trees[29], tree);
+}
