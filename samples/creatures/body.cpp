@@ -22,6 +22,28 @@ double smooth_step(double t) {
 
 }  // namespace
 
+Sweep ellipsoid(const Vec3& at, const Vec3& radii, int bone, double blend) {
+  return {.from = at,
+          .to = at,
+          .front = Vec3::UnitZ(),
+          .sections = {{0, radii.x(), radii.z(), radii.z()}},
+          .start_cap = radii.y(),
+          .end_cap = radii.y(),
+          .bones = {{bone}},
+          .blend = blend};
+}
+
+Sweep cone(const Vec3& from, const Vec3& to, double from_radius, double to_radius, int bone, double blend) {
+  return {.from = from,
+          .to = to,
+          .front = (to - from).unitOrthogonal(),
+          .sections = {{0, from_radius, from_radius, from_radius}, {1, to_radius, to_radius, to_radius}},
+          .start_cap = from_radius,
+          .end_cap = to_radius,
+          .bones = {{bone}},
+          .blend = blend};
+}
+
 Body::Body(std::vector<Sweep> sweeps, std::vector<int> mirror_bone, std::array<double, 6> asymmetry)
     : mirror_bone_(std::move(mirror_bone)), asymmetry_(asymmetry) {
   for (Sweep& shape : sweeps) {

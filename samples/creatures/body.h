@@ -35,6 +35,11 @@ struct Sweep {
   bool carve = false;     // is taken away instead of added
 };
 
+// Half axes along x, y and z.
+Sweep ellipsoid(const Vec3& at, const Vec3& radii, int bone, double blend);
+// A bone dressed in a rounded cone.
+Sweep cone(const Vec3& from, const Vec3& to, double from_radius, double to_radius, int bone, double blend);
+
 class Body {
  public:
   // `mirror_bone[b]` is the bone of the other side, or b itself on the middle line.

@@ -119,8 +119,21 @@ Character make_character(const Family& family, const std::string& name, uint64_t
   Character made{name, design.skeleton, {}, {}, {}, {}, {}};
   made.rest = remesh(polygonise(design.body, cell, rotation, shift), design.body, vertices, random);
   made.skin = skin(design.body, made.rest);
+  for (const Anchor& a : design.anchors) {
+    const Vec3 p = leave(design.body, a.inside, a.direction);
+    made.landmarks.push_back(nearest_on_mesh(a.paired ? a.name + ".L" : a.name, made.rest, p));
+    if (!a.paired) continue;
+    const Vec3 q = leave(design.body, mirrored(a.inside), mirrored(a.direction));
+    made.landmarks.push_back(nearest_on_mesh(a.name + ".R", made.rest, q));
+  }
+  for (Vec3& p : made.rest.positions) p *= design.scale;
+  for (Joint& joint : made.skeleton.joints) {
+    joint.rest *= design.scale;
+    joint.tip *= design.scale;
+  }
+
   const double heading = random.uniform(-std::numbers::pi, std::numbers::pi);
-  made.pose = random_pose(design.skeleton, design.freedoms, heading, random);
+  made.pose = random_pose(made.skeleton, design.freedoms, heading, random);
   double rest_floor = 1e9, floor = 1e9;
   for (size_t v = 0; v < made.rest.positions.size(); ++v) {
     made.posed.push_back(bend(made.rest.positions[v], made.skin[v], made.pose));
@@ -131,14 +144,6 @@ Character make_character(const Family& family, const std::string& name, uint64_t
   const Vec3 lift(0, rest_floor - floor, 0);
   for (Vec3& p : made.posed) p += lift;
   for (Eigen::Isometry3d& motion : made.pose) motion.pretranslate(lift);
-
-  for (const Anchor& a : design.anchors) {
-    const Vec3 p = leave(design.body, a.inside, a.direction);
-    made.landmarks.push_back(nearest_on_mesh(a.paired ? a.name + ".L" : a.name, made.rest, p));
-    if (!a.paired) continue;
-    const Vec3 q = leave(design.body, mirrored(a.inside), mirrored(a.direction));
-    made.landmarks.push_back(nearest_on_mesh(a.name + ".R", made.rest, q));
-  }
   return made;
 }
 

@@ -23,6 +23,7 @@ struct Design {
   std::vector<Anchor> anchors;
   std::vector<Freedom> freedoms;
   double lattice_cell;  // finer than the smallest detail
+  double scale = 1;     // of the finished character
 };
 
 Design design_humanoid(Random& random);

@@ -13,6 +13,9 @@ std::array<double, 6> random_asymmetry(Random& random, double size) {
 const std::vector<Family>& families() {
   static const std::vector<Family> all{
       {"humanoid", "people of different proportions in different poses", design_humanoid},
+      {"quadruped", "four-legged animals with paws and a tail", design_quadruped},
+      {"hand", "right hands", design_hand},
+      {"insect", "six-legged animals with antennae", design_insect},
   };
   return all;
 }

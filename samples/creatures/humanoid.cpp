@@ -143,16 +143,10 @@ void add_torso(std::vector<Sweep>& flesh, const Build& b, const Places& p, const
 
 void add_head(std::vector<Sweep>& flesh, const Build& b, const Places& p, const Bones& bones) {
   const double h = b.head;
-  const auto ball = [&](const Vec3& at, const Vec3& radii, double back, double blend) {
-    return Sweep{.from = p.head + h * at,
-                 .to = p.head + h * at,
-                 .front = Vec3::UnitZ(),
-                 .sections = {{0, h * radii.x(), h * radii.z(), h * back}},
-                 .start_cap = h * radii.y(),
-                 .end_cap = h * radii.y(),
-                 .bones = {{bones.head}},
-                 .blend = blend,
-                 .detail = 0.6};
+  const auto ball = [&](const Vec3& at, const Vec3& radii, double blend) {
+    Sweep s = ellipsoid(p.head + h * at, h * radii, bones.head, blend);
+    s.detail = 0.6;
+    return s;
   };
   flesh.push_back({.from = p.neck - Vec3(0, 0.05, 0.0),
                    .to = p.head + Vec3(0, 0.04, 0.0),
@@ -175,21 +169,21 @@ void add_head(std::vector<Sweep>& flesh, const Build& b, const Places& p, const 
                    .bones = {{bones.head}},
                    .blend = 0.03,
                    .detail = 0.6});
-  flesh.push_back(ball({0, -0.008, 0.066}, {0.026, 0.018, 0.02}, 0.03, 0.03));        // chin
-  Sweep nose = ball({0, 0.052, 0.092}, {0.019, 0.015, 0.024 * b.nose}, 0.02, 0.018);  // nose, up to
-  nose.to = p.head + h * Vec3(0, 0.098, 0.084);                                       // between the eyes
+  flesh.push_back(ball({0, -0.008, 0.066}, {0.026, 0.018, 0.02}, 0.03));        // chin
+  Sweep nose = ball({0, 0.052, 0.092}, {0.019, 0.015, 0.024 * b.nose}, 0.018);  // nose, up to
+  nose.to = p.head + h * Vec3(0, 0.098, 0.084);                                 // between the eyes
   nose.sections = {{0, 0.018 * h, 0.028 * h * b.nose, 0.02 * h}, {1, 0.011 * h, 0.010 * h, 0.01 * h}};
   flesh.push_back(nose);
-  Sweep brow = ball({0.028, 0.112, 0.071}, {0.03, 0.012, 0.016}, 0.02, 0.02);
+  Sweep brow = ball({0.028, 0.112, 0.071}, {0.03, 0.012, 0.016}, 0.02);
   brow.paired = true;
   flesh.push_back(brow);
-  Sweep eye = ball({0.031, 0.086, 0.092}, {0.018, 0.012, 0.012}, 0.012, 0.016);
+  Sweep eye = ball({0.031, 0.086, 0.092}, {0.018, 0.012, 0.012}, 0.016);
   eye.paired = eye.carve = true;
   flesh.push_back(eye);
-  Sweep mouth = ball({0, 0.021, 0.098}, {0.026, 0.005, 0.01}, 0.01, 0.012);
+  Sweep mouth = ball({0, 0.021, 0.098}, {0.026, 0.005, 0.01}, 0.012);
   mouth.carve = true;
   flesh.push_back(mouth);
-  Sweep ear = ball({0.072, 0.07, -0.008}, {0.014, 0.034, 0.016}, 0.022, 0.012);
+  Sweep ear = ball({0.072, 0.07, -0.008}, {0.014, 0.034, 0.016}, 0.012);
   ear.paired = true;
   flesh.push_back(ear);
 }
@@ -352,8 +346,12 @@ Design design_humanoid(Random& random) {
   add_leg(flesh, build, places, bones);
   add_arm(flesh, build, places, bones);
   add_head(flesh, build, places, bones);
-  return {bones.all, Body(flesh, bones.all.mirror, random_asymmetry(random, 0.0015)), anchors(build, places),
-          freedoms(places, bones), 0.0125};
+  return {bones.all,
+          Body(flesh, bones.all.mirror, random_asymmetry(random, 0.0015)),
+          anchors(build, places),
+          freedoms(places, bones),
+          0.0125,
+          random.typical(0.9, 1.1)};
 }
 
 }  // namespace creatures

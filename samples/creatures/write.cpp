@@ -13,7 +13,7 @@ using Json = nlohmann::ordered_json;
 constexpr const char* licence = "CC0 1.0 (made by focal_creatures)";
 
 Json numbers(const Vec3& v) { return Json::array({v.x(), v.y(), v.z()}); }
-Json rounded(const Vec3& v) { return numbers((v * 1e6).array().round().matrix() / 1e6); }
+Json rounded(const Vec3& v) { return numbers((v * 1e7).array().round().matrix() / 1e7); }
 
 void save(const std::filesystem::path& path, const std::string& bytes) {
   std::ofstream file(path, std::ios::binary);
