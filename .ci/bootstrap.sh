@@ -7,6 +7,7 @@ packages="g++ cmake ninja-build pkgconf libeigen3-dev libspectra-dev libtinygltf
 [ "${1:-}" = ci ] && packages="$packages abigail-tools clang-format-14"
 
 if ! command -v dpkg-query > /dev/null; then
+  # shellcheck disable=SC2086  # the packages are words
   echo "bootstrap: this is no Debian or Ubuntu; install what these packages hold yourself:" $packages >&2
   exit 1
 fi

@@ -1,3 +1,4 @@
+# shellcheck shell=sh
 # Sourced: runs named steps and tells at the end where the time went.
 steps_began=$(date +%s.%N)
 steps_times=
