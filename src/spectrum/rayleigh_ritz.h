@@ -1,0 +1,29 @@
+// The dense half of subspace iteration: the best eigenpairs within the span of a few hundred tall columns.
+#pragma once
+#include "base/aligned_array.h"
+#include "base/parallel.h"
+#include "linear/sparse_cholesky.h"
+
+namespace focal {
+
+// n x count() numbers in blocks of 32 interleaved columns (see SparseCholesky), one block after the other.
+struct Columns {
+  static constexpr int lanes = SparseCholesky::lanes;
+  int64_t n, stride;  // rows; rows stored, a multiple of 4 (the kernels' step), the surplus 0
+  int blocks;
+  AlignedArray<double> data;
+
+  Columns(int64_t rows, int block_count);
+  double* block(int b) const { return data.data() + b * stride * lanes; }
+  int count() const { return blocks * lanes; }
+  double operator()(int64_t i, int j) const { return block(j / lanes)[i * lanes + j % lanes]; }
+};
+
+// Replaces X by approximate eigenvectors of the symmetric A, unit and orthogonal; returns their eigenvalues, ascending.
+Vector rayleigh_ritz(const SparseMatrix& A, const Columns& X, const Execution& execution);
+
+// |A x - lambda x| of each column.
+Vector residual_norms(const SparseMatrix& A, const Columns& X, const Vector& lambda,
+                      const Execution& execution);
+
+}  // namespace focal
