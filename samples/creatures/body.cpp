@@ -155,7 +155,7 @@ void Body::visit_surfaces(const Vec3& point, Visit visit) const {
   }
   for (size_t i = 0; i < sweeps_.size(); ++i)
     for (int other = 0; other < 2; ++other) {
-      const double reach = 1.5 * std::max(sweeps_[i].shape.blend, 0.01);
+      const double reach = std::max(sweeps_[i].shape.blend, 0.01);
       const double closeness = 1 - (distances[i][other] - least) / reach;
       if (closeness > 0) visit(sweeps_[i], other == 1, smooth_step(closeness), other ? m : p);
     }

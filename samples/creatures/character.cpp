@@ -16,7 +16,7 @@ std::vector<Influences> skin(const Body& body, const Mesh& mesh) {
   const size_t bones = static_cast<size_t>(body.bone_count()), count = mesh.positions.size();
   std::vector<std::vector<double>> weights;
   for (const Vec3& p : mesh.positions) weights.push_back(body.bone_weights(p));
-  for (int round = 0; round < 4; ++round) {
+  for (int round = 0; round < 6; ++round) {
     std::vector<std::vector<double>> sums(count, std::vector<double>(bones, 0.0));
     for (const Triangle& t : mesh.triangles)
       for (int corner : t)

@@ -34,15 +34,15 @@ Places place(const Build& b, Random& random) {
   p.wrist = {0, 0, 0};
   p.palm_end = {0.03, 0.86, 0};
   const double w = b.width, f = b.fingers;
-  p.fingers[0] = {"Index", Vec3(0.315 * w, 0.90, 0.0), 7, 0.78 * f, 0.094};
-  p.fingers[1] = {"Middle", Vec3(0.105 * w, 0.95, -0.01), 1, 0.87 * f, 0.097};
+  p.fingers[0] = {"Index", Vec3(0.315 * w, 0.90, 0.0), 8, 0.78 * f, 0.094};
+  p.fingers[1] = {"Middle", Vec3(0.105 * w, 0.95, -0.01), 2, 0.87 * f, 0.097};
   p.fingers[2] = {"Ring", Vec3(-0.105 * w, 0.91, -0.005), -5, 0.80 * f, 0.091};
-  p.fingers[3] = {"Little", Vec3(-0.300 * w, 0.80, 0.01), -13, 0.62 * f, 0.080};
+  p.fingers[3] = {"Little", Vec3(-0.300 * w, 0.80, 0.01), -14, 0.62 * f, 0.080};
   for (int i = 0; i < 4; ++i) {
     Finger& finger = p.fingers[i];
     finger.length *= random.typical(0.93, 1.07);
-    finger.radius *= b.fingers_thick;
-    const double lean = (finger.lean + random.uniform(-1, 1)) * EIGEN_PI / 180;
+    finger.radius *= b.fingers_thick * w;  // narrow hands have thin fingers
+    const double lean = (finger.lean + random.uniform(-0.7, 0.7)) * EIGEN_PI / 180;
     const Vec3 along(std::sin(lean), std::cos(lean), 0.04);
     const double joints[4] = {0, 0.46, 0.75, 1};
     for (int k = 0; k < 4; ++k) p.finger[i][k] = finger.knuckle + joints[k] * finger.length * along;
@@ -86,10 +86,10 @@ void add_palm(std::vector<Sweep>& flesh, const Build& b, const Places& p, const 
                    .end_cap = 0.09,
                    .bones = {{bones.arm}, {bones.hand, 0.465, 0.25}},
                    .blend = 0.1});
-  const double pad = 0.10 * b.pads * t;
-  flesh.push_back(ellipsoid({-0.22 * w, 0.30, 0.10}, {0.14 * w, 0.27, pad + 0.03}, bones.hand, 0.1));
-  flesh.push_back(ellipsoid({0.02, 0.78, 0.07}, {0.32 * w, 0.10, pad}, bones.hand, 0.1));
-  flesh.push_back(ellipsoid({0.02, 0.50, 0.24}, {0.12 * w, 0.17, 0.10}, bones.hand, 0.1));  // the hollow
+  const double pad = 0.07 * b.pads * t;
+  flesh.push_back(ellipsoid({-0.20 * w, 0.30, 0.09}, {0.16 * w, 0.30, pad + 0.04}, bones.hand, 0.22));
+  flesh.push_back(ellipsoid({0.02, 0.76, 0.05}, {0.34 * w, 0.13, pad}, bones.hand, 0.2));
+  flesh.push_back(ellipsoid({0.02, 0.50, 0.26}, {0.13 * w, 0.19, 0.12}, bones.hand, 0.2));  // the hollow
   flesh.back().carve = true;
 }
 
@@ -174,9 +174,9 @@ std::vector<Freedom> freedoms(const Bones& b, const Places& p) {
                            {b.thumb[2], Vec3(0.45, -0.2, 1), -10, 45}};
   for (int i = 0; i < 4; ++i) {
     const Vec3 flex = (p.finger[i][3] - p.finger[i][0]).cross(z);
-    all.push_back({b.finger[i][1], flex, 0, 80});
+    all.push_back({b.finger[i][1], flex, -5, 75});
     all.push_back({b.finger[i][2], flex, 0, 50});
-    all.push_back({b.finger[i][0], flex, -18, 65});
+    all.push_back({b.finger[i][0], flex, -22, 62});
     all.push_back({b.finger[i][0], z, -3, 3});
   }
   return all;
@@ -186,7 +186,7 @@ std::vector<Freedom> freedoms(const Bones& b, const Places& p) {
 
 Design design_hand(Random& random) {
   const Build build{random.uniform(0.9, 1.1),  random.uniform(0.88, 1.18), random.uniform(0.88, 1.12),
-                    random.uniform(0.9, 1.05), random.typical(0.9, 1.12),  random.uniform(0.8, 1.2)};
+                    random.uniform(0.9, 1.02), random.typical(0.9, 1.12),  random.uniform(0.8, 1.2)};
   const Places places = place(build, random);
   const Bones bones = skeleton(places);
   std::vector<Sweep> flesh;

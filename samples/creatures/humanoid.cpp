@@ -117,7 +117,7 @@ void add_torso(std::vector<Sweep>& flesh, const Build& b, const Places& p, const
        .sections = {{0, 0.045, 0.045, 0.048, -0.005}, {0.6, 0.040, 0.044, 0.05}, {1, 0.04, 0.042, 0.045}},
        .start_cap = 0.04,
        .end_cap = 0.03,
-       .bones = {{bones.upper_chest}, {bones.shoulder, 0.5, 0.08}},
+       .bones = {{bones.upper_chest}, {bones.shoulder, 0.35, 0.1}},
        .blend = 0.06,
        .paired = true});
   const double bust = 0.02 + 0.022 * b.bust;

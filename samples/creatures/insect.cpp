@@ -40,8 +40,8 @@ Places place(const Build& b) {
   const double y = 0.36 * b.stance;
   p.waist = {0, y, -0.13};
   p.thorax = {0, y + 0.02, 0.02};
-  p.neck = {0, y + 0.03, 0.21 * b.thorax};
-  p.head = p.neck + Vec3(0, 0.005, 0.13 * b.head);
+  p.neck = {0, y + 0.03, 0.22 * b.thorax};
+  p.head = p.neck + Vec3(0, 0.005, 0.02 + 0.13 * b.head);
   p.mouth = p.head + Vec3(0, -0.05, 0.12) * b.head;
   p.abdomen = {0, y + 0.02, -0.25};
   p.abdomen_tip = p.abdomen + b.abdomen_long * Vec3(0, -0.04, -0.52);
@@ -50,13 +50,12 @@ Places place(const Build& b) {
   p.antenna[1] = p.antenna[0] + a * Vec3(0.13, 0.17, 0.10);
   p.antenna[2] = p.antenna[1] + a * Vec3(0.12, -0.03, 0.30);
   const double m = b.mandibles * b.head;
-  p.mandible[0] = p.head + b.head * Vec3(0.06, -0.045, 0.09);
+  p.mandible[0] = p.head + b.head * Vec3(0.065, -0.045, 0.09);
   p.mandible[1] = p.mandible[0] + m * Vec3(0.025, -0.015, 0.085);
-  p.mandible[2] = p.mandible[1] + m * Vec3(-0.055, -0.01, 0.065);
+  p.mandible[2] = p.mandible[1] + m * Vec3(-0.045, -0.01, 0.065);
   const char* names[3] = {"Front", "Middle", "Hind"};
   for (int i = 0; i < 3; ++i) {
-    const double forward[3] = {0.62, -0.12, -0.75}, length[3] = {0.9, 1.0, 1.2},
-                 root[3] = {0.13, 0.02, -0.09};
+    const double forward[3] = {0.45, -0.12, -0.7}, length[3] = {0.9, 1.0, 1.2}, root[3] = {0.10, 0.01, -0.09};
     const Vec3 out = Vec3(1, 0, forward[i]).normalized();
     const double l = b.legs * length[i];
     Leg& leg = p.legs[i];

@@ -99,8 +99,8 @@ void add_torso(std::vector<Sweep>& flesh, const Build& b, const Places& p, const
                    .front = Vec3::UnitY(),
                    .sections = {{0.00, 0.085 * r, 0.080 * r, 0.085 * r},
                                 {0.15, 0.108 * r, 0.092 * r, 0.105 * r},
-                                {0.40, 0.100 * r, 0.082 * r, 0.100 * r},
-                                {0.65, 0.120 * c, 0.085 * r, 0.150 * c},
+                                {0.40, 0.102 * r, 0.082 * r, 0.115 * r},
+                                {0.65, 0.122 * c, 0.088 * r, 0.165 * c},
                                 {0.85, 0.115 * c, 0.105 * r, 0.155 * c},
                                 {1.00, 0.085 * c, 0.085 * r, 0.105 * c}},
                    .start_cap = 0.06,
@@ -152,9 +152,8 @@ void add_head(std::vector<Sweep>& flesh, const Build& b, const Places& p, const 
     flesh.push_back(s);
   };
   ball(p.nose + Vec3(0, 0.012, -0.018), {0.019, 0.015, 0.016}, 0.012, false, false);
-  ball(brow + h * Vec3(0.038, 0.047, 0.01), {0.024, 0.016, 0.026}, 0.025, false, true);
+  ball(brow + h * Vec3(0.038, 0.043, 0.005), {0.022, 0.013, 0.028}, 0.035, false, true);
   ball(brow + h * Vec3(0.056, 0.02, 0.035), {0.012, 0.013, 0.018}, 0.016, true, true);
-  ball(p.head + (p.nose - p.head) * 0.98 + Vec3(0.022, -0.022, 0), {0.022, 0.004, 0.05}, 0.008, true, true);
   flesh.push_back(
       {.from = p.ear,
        .to = p.ear_tip,
@@ -207,7 +206,7 @@ void add_legs(std::vector<Sweep>& flesh, const Build& b, const Places& p, const 
            {0.8 * elbow + 0.2 * wrist, 0.036 * w, 0.040 * w, 0.043 * w, 0.6 * front(p.elbow)},
            {elbow, 0.041 * w, 0.050 * w, 0.050 * w, front(p.elbow) + 0.012},
            {0.5 + 0.5 * elbow, 0.050 * w, 0.070 * w, 0.066 * w, 0.45 * front(p.shoulder)},
-           {1.0, 0.055 * w, 0.085 * w, 0.085 * w, front(p.shoulder) - 0.03}},
+           {1.0, 0.048 * w, 0.078 * w, 0.078 * w, front(p.shoulder) - 0.03}},
           0.11, bones.chest);
   const double hock = up(p.hock, p.hind_paw, p.hip), knee = up(p.knee, p.hind_paw, p.hip);
   add_leg(
