@@ -32,7 +32,7 @@ Places place(const Build& b, Random& random) {
   Places p;
   p.elbow_end = {0, -0.75, 0};
   p.wrist = {0, 0, 0};
-  p.palm_end = {0.03, 0.86, 0};
+  p.palm_end = {0.02, 0.90, 0};
   const double w = b.width, f = b.fingers;
   p.fingers[0] = {"Index", Vec3(0.315 * w, 0.90, 0.0), 8, 0.78 * f, 0.094};
   p.fingers[1] = {"Middle", Vec3(0.105 * w, 0.95, -0.01), 2, 0.87 * f, 0.097};
@@ -81,9 +81,9 @@ void add_palm(std::vector<Sweep>& flesh, const Build& b, const Places& p, const 
                                 {0.46, 0.262 * w, 0.180 * t, 0.170 * t},
                                 {0.62, 0.345 * w, 0.160 * t, 0.165 * t},
                                 {0.85, 0.400 * w, 0.120 * t, 0.150 * t},
-                                {1.00, 0.385 * w, 0.105 * t, 0.125 * t}},
+                                {1.00, 0.380 * w, 0.095 * t, 0.115 * t}},
                    .start_cap = 0.12,
-                   .end_cap = 0.09,
+                   .end_cap = 0.12,
                    .bones = {{bones.arm}, {bones.hand, 0.465, 0.25}},
                    .blend = 0.1});
   const double pad = 0.07 * b.pads * t;
@@ -104,8 +104,8 @@ void add_fingers(std::vector<Sweep>& flesh, const Places& p, const Bones& bones)
     flesh.push_back({.from = start,
                      .to = end,
                      .front = Vec3::UnitZ(),
-                     .sections = {{0, 1.05 * r, 1.0 * r, 1.15 * r},
-                                  {at(0), 1.08 * r, 1.0 * r, 1.25 * r},
+                     .sections = {{0, 0.95 * r, 1.0 * r, 1.15 * r},
+                                  {at(0), 1.0 * r, 1.0 * r, 1.25 * r},
                                   {0.5 * (at(0) + at(1)), 0.98 * r, 1.05 * r, 0.95 * r},
                                   {at(1), 1.0 * r, 0.93 * r, 1.05 * r},
                                   {0.5 * (at(1) + at(2)), 0.90 * r, 0.95 * r, 0.85 * r},

@@ -18,7 +18,7 @@ Build random_build(Random& random) {
   b.legs = random.uniform(0.88, 1.15);
   b.leg_thick = random.uniform(0.88, 1.2);
   b.antennae = random.uniform(0.8, 1.2);
-  b.mandibles = random.uniform(0.75, 1.2);
+  b.mandibles = random.uniform(0.85, 1.2);
   b.eyes = random.uniform(0.8, 1.2);
   b.stance = random.typical(0.85, 1.2);
   return b;
@@ -42,17 +42,17 @@ Places place(const Build& b) {
   p.thorax = {0, y + 0.02, 0.02};
   p.neck = {0, y + 0.03, 0.22 * b.thorax};
   p.head = p.neck + Vec3(0, 0.005, 0.02 + 0.13 * b.head);
-  p.mouth = p.head + Vec3(0, -0.05, 0.12) * b.head;
+  p.mouth = p.head + Vec3(0, -0.05, 0.095) * b.head;
   p.abdomen = {0, y + 0.02, -0.25};
   p.abdomen_tip = p.abdomen + b.abdomen_long * Vec3(0, -0.04, -0.52);
   const double a = b.antennae;
-  p.antenna[0] = p.head + b.head * Vec3(0.05, 0.055, 0.085);
-  p.antenna[1] = p.antenna[0] + a * Vec3(0.13, 0.17, 0.10);
+  p.antenna[0] = p.head + b.head * Vec3(0.045, 0.035, 0.045);
+  p.antenna[1] = p.antenna[0] + a * Vec3(0.13, 0.19, 0.13);
   p.antenna[2] = p.antenna[1] + a * Vec3(0.12, -0.03, 0.30);
   const double m = b.mandibles * b.head;
-  p.mandible[0] = p.head + b.head * Vec3(0.065, -0.045, 0.09);
-  p.mandible[1] = p.mandible[0] + m * Vec3(0.025, -0.015, 0.085);
-  p.mandible[2] = p.mandible[1] + m * Vec3(-0.045, -0.01, 0.065);
+  p.mandible[0] = p.head + b.head * Vec3(0.062, -0.045, 0.075);
+  p.mandible[1] = p.mandible[0] + m * Vec3(0.05, -0.015, 0.10);
+  p.mandible[2] = p.mandible[1] + m * Vec3(-0.06, -0.01, 0.085);
   const char* names[3] = {"Front", "Middle", "Hind"};
   for (int i = 0; i < 3; ++i) {
     const double forward[3] = {0.45, -0.12, -0.7}, length[3] = {0.9, 1.0, 1.2}, root[3] = {0.10, 0.01, -0.09};
@@ -136,7 +136,7 @@ void add_head(std::vector<Sweep>& flesh, const Build& b, const Places& p, const 
                    .front = Vec3::UnitY(),
                    .sections = {{0, 0.098 * h, 0.085 * h, 0.080 * h},
                                 {0.5, 0.112 * h, 0.080 * h, 0.078 * h},
-                                {1, 0.075 * h, 0.048 * h, 0.045 * h}},
+                                {1, 0.058 * h, 0.046 * h, 0.043 * h}},
                    .start_cap = 0.075 * h,
                    .end_cap = 0.035 * h,
                    .bones = {{bones.head}},
@@ -156,10 +156,10 @@ void add_head(std::vector<Sweep>& flesh, const Build& b, const Places& p, const 
     s.detail = 0.5;
     flesh.push_back(s);
   };
-  limb(p.antenna[0], p.antenna[1], 0.026, 0.021, {bones.head}, {bones.antenna[0], 0.12, 0.05}, 0.02);
+  limb(p.antenna[0], p.antenna[1], 0.026, 0.021, {bones.head}, {bones.antenna[0], 0.25, 0.06}, 0.02);
   limb(p.antenna[1], p.antenna[2], 0.021, 0.026, {bones.antenna[0]}, {bones.antenna[1], 0, 0.05}, 0.01);
-  limb(p.mandible[0], p.mandible[1], 0.034 * h, 0.027 * h, {bones.head}, {bones.mandible, 0.35, 0.06}, 0.025);
-  limb(p.mandible[1], p.mandible[2], 0.027 * h, 0.019, {bones.mandible}, {bones.mandible}, 0.015);
+  limb(p.mandible[0], p.mandible[1], 0.032 * h, 0.025 * h, {bones.head}, {bones.mandible, 0.35, 0.06}, 0.025);
+  limb(p.mandible[1], p.mandible[2], 0.025 * h, 0.018, {bones.mandible}, {bones.mandible}, 0.015);
 }
 
 void add_legs(std::vector<Sweep>& flesh, const Build& b, const Places& p, const Bones& bones) {
