@@ -44,7 +44,7 @@ Places place(const Build& b) {
   p.head = p.neck + Vec3(0, 0.005, 0.02 + 0.13 * b.head);
   p.mouth = p.head + Vec3(0, -0.05, 0.095) * b.head;
   p.abdomen = {0, y + 0.02, -0.25};
-  p.abdomen_tip = p.abdomen + b.abdomen_long * Vec3(0, -0.04, -0.52);
+  p.abdomen_tip = p.abdomen + b.abdomen_long * Vec3(0, -0.04, -0.56);
   const double a = b.antennae;
   p.antenna[0] = p.head + b.head * Vec3(0.045, 0.035, 0.045);
   p.antenna[1] = p.antenna[0] + a * Vec3(0.13, 0.19, 0.13);
@@ -55,7 +55,7 @@ Places place(const Build& b) {
   p.mandible[2] = p.mandible[1] + m * Vec3(-0.06, -0.01, 0.085);
   const char* names[3] = {"Front", "Middle", "Hind"};
   for (int i = 0; i < 3; ++i) {
-    const double forward[3] = {0.45, -0.12, -0.7}, length[3] = {0.9, 1.0, 1.2}, root[3] = {0.10, 0.01, -0.09};
+    const double forward[3] = {0.5, -0.08, -0.65}, length[3] = {0.9, 1.0, 1.2}, root[3] = {0.12, 0.01, -0.10};
     const Vec3 out = Vec3(1, 0, forward[i]).normalized();
     const double l = b.legs * length[i];
     Leg& leg = p.legs[i];
@@ -114,7 +114,8 @@ void add_trunk(std::vector<Sweep>& flesh, const Build& b, const Places& p, const
                    .to = p.abdomen_tip,
                    .front = Vec3::UnitY(),
                    .sections = {{0.00, 0.045, 0.045, 0.045},
-                                {0.22, 0.140 * a, 0.125 * a, 0.110 * a},
+                                {0.10, 0.058, 0.056, 0.054},
+                                {0.26, 0.140 * a, 0.125 * a, 0.110 * a},
                                 {0.40, 0.185 * a, 0.165 * a, 0.135 * a},
                                 {0.44, 0.178 * a, 0.157 * a, 0.133 * a},
                                 {0.58, 0.188 * a, 0.165 * a, 0.135 * a},
@@ -175,7 +176,7 @@ void add_legs(std::vector<Sweep>& flesh, const Build& b, const Places& p, const 
       s.detail = 0.55;
       flesh.push_back(s);
     };
-    part(leg.hip, leg.knee, {0.040, 0.044, 0.028}, {bones.thorax}, {bones.femur[i], 0.15, 0.08});
+    part(leg.hip, leg.knee, {0.043, 0.040, 0.028}, {bones.thorax}, {bones.femur[i], 0.15, 0.08});
     flesh.back().blend = 0.03;
     part(leg.knee, leg.ankle, {0.029, 0.033, 0.023}, {bones.femur[i]}, {bones.tibia[i], 0, 0.06});
     part(leg.ankle, leg.tip, {0.023, 0.023, 0.019}, {bones.tibia[i]}, {bones.tarsus[i], 0, 0.05});
