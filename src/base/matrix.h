@@ -10,9 +10,9 @@ namespace focal {
 using Vector3 = Eigen::Vector3d;
 using Matrix4 = Eigen::Matrix4d;  // acts on column vectors
 using Vector = Eigen::VectorXd;
-using Matrix = Eigen::MatrixXd;                                                       // column-major
-using MatrixX3 = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;           // points
-using MatrixX3i = Eigen::Matrix<int32_t, Eigen::Dynamic, 3, Eigen::RowMajor>;         // triangles
+using Matrix = Eigen::MatrixXd;                                                // column-major
+using MatrixX3 = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;    // points
+using MatrixX3i = Eigen::Matrix<int32_t, Eigen::Dynamic, 3, Eigen::RowMajor>;  // triangles
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using RowMatrixf = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int32_t>;

@@ -69,8 +69,7 @@ void parallel_for(const Execution& execution, int64_t count, const std::function
 void parallel_for_ranges(const Execution& execution, int64_t count, int64_t grain,
                          const std::function<void(int64_t, int64_t)>& body) {
   const int64_t ranges = (count + grain - 1) / grain;
-  parallel_for(execution, ranges,
-               [&](int64_t r) { body(r * grain, std::min(count, (r + 1) * grain)); });
+  parallel_for(execution, ranges, [&](int64_t r) { body(r * grain, std::min(count, (r + 1) * grain)); });
 }
 
 }  // namespace focal

@@ -10,13 +10,16 @@ namespace focal {
 struct Execution {
   int thread_count = 0;  // 0: one a core
   Task* task = nullptr;  // may be null
-  bool reports = true;   // false inside a body of parallel_for: cancellable, but the outer loop tells the progress
+  bool reports =
+      true;  // false inside a body of parallel_for: cancellable, but the outer loop tells the progress
   // The host's own parallel-for, or empty: run body(i) for i in [0, count) in any order, return when all are done.
   std::function<void(int64_t count, const std::function<void(int64_t)>& body)> host_parallel_for;
 
   int threads() const;
   // For the stages inside a body of parallel_for: one thread, no progress of their own.
-  Execution inner() const { return {.thread_count = 1, .task = task, .reports = false, .host_parallel_for = {}}; }
+  Execution inner() const {
+    return {.thread_count = 1, .task = task, .reports = false, .host_parallel_for = {}};
+  }
   // Throws Error{cancelled} when the task was cancelled. Call it at least every few milliseconds of work.
   void check_cancelled() const;
   void begin_stage(const char* name, double from, double to) const {

@@ -9,10 +9,10 @@ class Random {
  public:
   // Streams of one seed are independent: use one a tree, one a shape.
   explicit Random(uint64_t seed, uint64_t stream = 0);
-  uint32_t next();                    // uniform over all 32-bit values
-  uint32_t below(uint32_t bound);     // uniform in [0, bound), bound > 0
-  double uniform();                   // uniform in [0, 1)
-  double normal();                    // mean 0, variance 1
+  uint32_t next();                 // uniform over all 32-bit values
+  uint32_t below(uint32_t bound);  // uniform in [0, bound), bound > 0
+  double uniform();                // uniform in [0, 1)
+  double normal();                 // mean 0, variance 1
 
  private:
   uint64_t state_, increment_;

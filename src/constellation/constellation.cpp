@@ -27,8 +27,8 @@ FOCAL_INLINE float handedness_body(float x, float y, const float* xs, const floa
   for (const float p : part) sum += p;
   return sum;
 }
-FOCAL_MULTIVERSION(float handedness_cost(float x, float y, const float* xs, const float* ys, const float* mean,
-                                         const float* inverse, int32_t count),
+FOCAL_MULTIVERSION(float handedness_cost(float x, float y, const float* xs, const float* ys,
+                                         const float* mean, const float* inverse, int32_t count),
                    return handedness_body(x, y, xs, ys, mean, inverse, count);)
 
 // Statistics laid out for the inner loop: rows padded to a multiple of 16, inverse deviations, zero where two of the
@@ -59,8 +59,13 @@ struct Tables {
 class Descent {
  public:
   Descent(const Tables& tables, const ConstellationCandidates& candidates, const ConstellationParams& params)
-      : t_(tables), c_(candidates), chosen_(tables.L, -1), xs_(RowMatrixf::Zero(tables.L, tables.padded)),
-        ys_(xs_), row_x_(tables.padded), row_y_(tables.padded) {
+      : t_(tables),
+        c_(candidates),
+        chosen_(tables.L, -1),
+        xs_(RowMatrixf::Zero(tables.L, tables.padded)),
+        ys_(xs_),
+        row_x_(tables.padded),
+        row_y_(tables.padded) {
     const double others = std::max(1, t_.L - 1);
     unary_ = static_cast<float>(params.unary_weight);
     pair_ = static_cast<float>(params.pair_weight / others);
@@ -79,8 +84,7 @@ class Descent {
   // Everything of the energy that depends on where landmark l lies.
   float cost(int32_t l, int32_t candidate) {
     float pairs = 0, triples = 0;
-    for (int32_t o = 0; o < t_.L; ++o)
-      row_x_[o] = row_y_[o] = 0;
+    for (int32_t o = 0; o < t_.L; ++o) row_x_[o] = row_y_[o] = 0;
     for (int32_t o = 0; o < t_.L; ++o) {
       if (o == l || chosen_[o] < 0) continue;
       row_x_[o] = c_.directions.x(candidate, chosen_[o]), row_y_[o] = c_.directions.y(candidate, chosen_[o]);
@@ -92,8 +96,9 @@ class Descent {
       const size_t at_l = t_.row(l, o), at_o = t_.row(o, l);
       triples += 0.5f * handedness_cost(row_x_[o], row_y_[o], row_x_.data(), row_y_.data(), &t_.mean[at_l],
                                         &t_.inverse[at_l], t_.padded);
-      triples += handedness_cost(c_.directions.x(chosen_[o], candidate), c_.directions.y(chosen_[o], candidate),
-                                 &xs_(o, 0), &ys_(o, 0), &t_.mean[at_o], &t_.inverse[at_o], t_.padded);
+      triples +=
+          handedness_cost(c_.directions.x(chosen_[o], candidate), c_.directions.y(chosen_[o], candidate),
+                          &xs_(o, 0), &ys_(o, 0), &t_.mean[at_o], &t_.inverse[at_o], t_.padded);
     }
     return unary_ * c_.unary[candidate] + pair_ * pairs + handedness_ * triples;
   }
@@ -116,8 +121,9 @@ class Descent {
       for (int32_t o = 0; o < t_.L; ++o) {
         if (o == l || chosen_[o] < 0) continue;
         if (o < l) sum += pair_ * pair_cost(l, chosen_[l], o);
-        sum += 0.5 * handedness_ * handedness_cost(xs_(l, o), ys_(l, o), &xs_(l, 0), &ys_(l, 0),
-                                                   &t_.mean[t_.row(l, o)], &t_.inverse[t_.row(l, o)], t_.padded);
+        sum += 0.5 * handedness_ *
+               handedness_cost(xs_(l, o), ys_(l, o), &xs_(l, 0), &ys_(l, 0), &t_.mean[t_.row(l, o)],
+                               &t_.inverse[t_.row(l, o)], t_.padded);
       }
     }
     return sum;
@@ -157,7 +163,7 @@ class Descent {
   const ConstellationCandidates& c_;
   float unary_, pair_, handedness_;
   std::vector<int32_t> chosen_;
-  RowMatrixf xs_, ys_;              // [at l][to o], chosen ones only
+  RowMatrixf xs_, ys_;  // [at l][to o], chosen ones only
   std::vector<float> row_x_, row_y_;
 };
 
@@ -173,7 +179,8 @@ ConstellationChoice choose_constellation(const ConstellationStatistics& statisti
     Descent descent(tables, candidates, params);
     for (int32_t l = 0; l < tables.L; ++l) {
       const int32_t options = candidates.start[l + 1] - candidates.start[l];
-      if (options > 0) descent.choose(l, candidates.start[l] + static_cast<int32_t>(r ? random.below(options) : 0));
+      if (options > 0)
+        descent.choose(l, candidates.start[l] + static_cast<int32_t>(r ? random.below(options) : 0));
     }
     descent.run(random);
     results[r].energy = descent.energy();
@@ -203,7 +210,8 @@ ConstellationStatistics learn_constellation(std::span<const ConstellationSample>
       }
     if (!count) return;
     mean = static_cast<float>(sum / count);
-    sd = std::max(floor, static_cast<float>(std::sqrt(std::max(0.0, squares / count - std::pow(sum / count, 2)))));
+    sd = std::max(floor,
+                  static_cast<float>(std::sqrt(std::max(0.0, squares / count - std::pow(sum / count, 2)))));
   };
   for (int32_t c = 0; c < landmarks; ++c)
     for (int32_t a = 0; a < landmarks; ++a) {

@@ -15,8 +15,9 @@ namespace focal {
 // Over the training shapes. Distances in units of sqrt(area); handedness as in TangentDirections, -1..1.
 struct ConstellationStatistics {
   int32_t landmarks = 0;
-  RowMatrixf distance_mean, distance_sd;             // L x L, symmetric; sd > 0
-  std::vector<float> handedness_mean, handedness_sd; // [c][a][b]: at c, from the way to a round to the way to b
+  RowMatrixf distance_mean, distance_sd;  // L x L, symmetric; sd > 0
+  std::vector<float> handedness_mean,
+      handedness_sd;  // [c][a][b]: at c, from the way to a round to the way to b
   float mean(int32_t c, int32_t a, int32_t b) const { return handedness_mean[index(c, a, b)]; }
   size_t index(int32_t c, int32_t a, int32_t b) const {
     return (static_cast<size_t>(c) * landmarks + a) * landmarks + b;
@@ -44,8 +45,8 @@ ConstellationStatistics learn_constellation(std::span<const ConstellationSample>
 // Candidates of all landmarks in one list; those of landmark l are start[l] .. start[l + 1].
 struct ConstellationCandidates {
   std::vector<int32_t> start;
-  std::vector<float> unary;   // 0 for the best vote of its landmark, 1 for none
-  RowMatrixf distance;        // all x all, of sqrt(area)
+  std::vector<float> unary;  // 0 for the best vote of its landmark, 1 for none
+  RowMatrixf distance;       // all x all, of sqrt(area)
   TangentDirections directions;
 };
 
@@ -58,7 +59,7 @@ struct ConstellationParams {
 struct ConstellationChoice {
   std::vector<int32_t> candidate;  // one a landmark; -1 when it has none
   double energy = 0;
-  std::vector<float> residual;     // per landmark: mean clipped squared pairwise deviation, 0 is perfect
+  std::vector<float> residual;  // per landmark: mean clipped squared pairwise deviation, 0 is perfect
 };
 
 ConstellationChoice choose_constellation(const ConstellationStatistics& statistics,

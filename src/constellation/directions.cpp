@@ -28,7 +28,8 @@ Face face_of(const TriangleMesh& mesh, int32_t t, const MatrixX3& normals) {
 }
 
 // Triangles wholly within the radius, or those round the point itself where the mesh is too coarse for that.
-std::vector<int32_t> disc_round(const TriangleMesh& mesh, const SurfacePoint& point, const float* field, double radius) {
+std::vector<int32_t> disc_round(const TriangleMesh& mesh, const SurfacePoint& point, const float* field,
+                                double radius) {
   std::vector<int32_t> disc, ring;
   const Eigen::RowVector3i own = mesh.triangles.row(point.triangle);
   for (int32_t t = 0; t < mesh.triangle_count(); ++t) {

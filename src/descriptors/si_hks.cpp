@@ -7,7 +7,7 @@
 namespace focal {
 namespace {
 
-constexpr int time_count = 241;       // tau = 1, 1.1, ... 25
+constexpr int time_count = 241;  // tau = 1, 1.1, ... 25
 constexpr int frequency_count = 20;
 constexpr double reference_area = 2e4;  // the scale of the Shape-Google database, to which the times belong
 
@@ -15,7 +15,8 @@ constexpr double reference_area = 2e4;  // the scale of the Shape-Google databas
 // is continuous at the second and last but one knot ("not a knot"): a linear map, so a matrix.
 Matrix spline_matrix() {
   constexpr int n = frequency_count;
-  Matrix system = Matrix::Zero(n, n), right = Matrix::Zero(n, n);  // system * second derivatives = right * values
+  Matrix system = Matrix::Zero(n, n),
+         right = Matrix::Zero(n, n);  // system * second derivatives = right * values
   for (int i = 1; i + 1 < n; ++i) {
     system(i, i - 1) = system(i, i + 1) = 1, system(i, i) = 4;
     right(i, i - 1) = right(i, i + 1) = 6, right(i, i) = -12;
@@ -54,12 +55,14 @@ RowMatrix si_hks(const Eigenbasis& basis, double area, std::span<const int32_t> 
   for (int k = 0; k < time_count; ++k)
     decay.col(k) = (-basis.lambda.array() * scale * std::exp2(1 + 0.1 * k)).exp();
   Matrix squared(vertices.size(), basis.Phi.cols());
-  for (size_t v = 0; v < vertices.size(); ++v) squared.row(v) = basis.Phi.row(vertices[v]).array().square() * scale;
+  for (size_t v = 0; v < vertices.size(); ++v)
+    squared.row(v) = basis.Phi.row(vertices[v]).array().square() * scale;
   const Matrix log_hks = (squared * decay).array().max(1e-300).log();
   const Matrix derivative = log_hks.rightCols(time_count - 1) - log_hks.leftCols(time_count - 1);
   const Matrix spectrum = derivative * fourier_matrix();
-  const Matrix magnitude =
-      (spectrum.leftCols(frequency_count).array().square() + spectrum.rightCols(frequency_count).array().square()).sqrt();
+  const Matrix magnitude = (spectrum.leftCols(frequency_count).array().square() +
+                            spectrum.rightCols(frequency_count).array().square())
+                               .sqrt();
   return magnitude * spline_matrix();
 }
 

@@ -64,11 +64,11 @@ Eigen::VectorXf predict_means(const RegressionForest& forest, const RowMatrixf& 
                               const Execution& execution) {
   Eigen::VectorXf result(descriptors.rows());
   parallel_for_ranges(execution, descriptors.rows(), 256, [&](int64_t begin, int64_t end) {
-    for (int64_t s = begin; s < end; ++s) {
-      double sum = 0;
-      for (const RegressionTree& tree : forest.trees) sum += tree.leaf_mean[tree.leaf_of(descriptors.row(s).data())];
-      result[s] = static_cast<float>(sum / forest.trees.size());
-    }
+    Vector sum = Vector::Zero(end - begin);
+    for (const RegressionTree& tree : forest.trees)  // outside: one tree stays in cache for all samples
+      for (int64_t s = begin; s < end; ++s)
+        sum[s - begin] += tree.leaf_mean[tree.leaf_of(descriptors.row(s).data())];
+    result.segment(begin, end - begin) = (sum / static_cast<double>(forest.trees.size())).cast<float>();
   });
   return result;
 }

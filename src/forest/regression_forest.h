@@ -12,9 +12,9 @@ namespace focal {
 
 // Node 0 is the root and children come after their parent, left then right, side by side.
 struct RegressionTree {
-  std::vector<int32_t> feature;      // per node: descriptor component tested, or -1 at a leaf
-  std::vector<float> threshold;      // per node: left when descriptor[feature] <= threshold
-  std::vector<int32_t> child;        // per node: left child; at a leaf: the leaf's number, 0-based
+  std::vector<int32_t> feature;  // per node: descriptor component tested, or -1 at a leaf
+  std::vector<float> threshold;  // per node: left when descriptor[feature] <= threshold
+  std::vector<int32_t> child;    // per node: left child; at a leaf: the leaf's number, 0-based
   // What the leaves hold: either the training samples that fell into each (leaf i has
   // leaf_samples[leaf_start[i] .. leaf_start[i + 1])), or one mean each.
   std::vector<int32_t> leaf_start;

@@ -31,8 +31,8 @@ FOCAL_INLINE float gain_body(const float* left, const float* total, float invers
   for (const float p : part) sum += p;
   return sum;
 }
-FOCAL_MULTIVERSION(float gain_of(const float* left, const float* total, float inverse_left, float inverse_right,
-                                 int32_t count),
+FOCAL_MULTIVERSION(float gain_of(const float* left, const float* total, float inverse_left,
+                                 float inverse_right, int32_t count),
                    return gain_body(left, total, inverse_left, inverse_right, count);)
 
 struct Split {
@@ -45,9 +45,16 @@ class TreeBuilder {
  public:
   TreeBuilder(const BinnedDescriptors& descriptors, const RowMatrixf& targets, const ForestParams& params,
               Random random, const Execution& execution)
-      : descriptors_(descriptors), targets_(targets), params_(params), random_(random), execution_(execution),
-        outputs_(static_cast<int32_t>(targets.cols())), samples_(targets.rows()), scratch_(targets.rows()),
-        total_(outputs_), left_(outputs_) {
+      : descriptors_(descriptors),
+        targets_(targets),
+        params_(params),
+        random_(random),
+        execution_(execution),
+        outputs_(static_cast<int32_t>(targets.cols())),
+        samples_(targets.rows()),
+        scratch_(targets.rows()),
+        total_(outputs_),
+        left_(outputs_) {
     std::iota(samples_.begin(), samples_.end(), 0);
     features_.resize(descriptors.bins.cols());
     std::iota(features_.begin(), features_.end(), 0);
@@ -149,8 +156,8 @@ class TreeBuilder {
 
 }  // namespace
 
-RegressionTree grow_tree(const BinnedDescriptors& descriptors, const RowMatrixf& targets, const ForestParams& params,
-                         Random random, const Execution& execution) {
+RegressionTree grow_tree(const BinnedDescriptors& descriptors, const RowMatrixf& targets,
+                         const ForestParams& params, Random random, const Execution& execution) {
   return TreeBuilder(descriptors, targets, params, random, execution).grow();
 }
 

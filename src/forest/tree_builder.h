@@ -5,7 +5,7 @@
 
 namespace focal {
 
-RegressionTree grow_tree(const BinnedDescriptors& descriptors, const RowMatrixf& targets, const ForestParams& params,
-                         Random random, const Execution& execution);
+RegressionTree grow_tree(const BinnedDescriptors& descriptors, const RowMatrixf& targets,
+                         const ForestParams& params, Random random, const Execution& execution);
 
 }  // namespace focal

@@ -24,7 +24,8 @@ template <class T>
 class AlignedArray {
  public:
   explicit AlignedArray(size_t count)
-      : data_(static_cast<T*>(::operator new(std::max<size_t>(count, 1) * sizeof(T), std::align_val_t(64)))) {}
+      : data_(static_cast<T*>(::operator new(std::max<size_t>(count, 1) * sizeof(T), std::align_val_t(64)))) {
+  }
   ~AlignedArray() { ::operator delete(data_, std::align_val_t(64)); }
   AlignedArray(const AlignedArray&) = delete;
   AlignedArray& operator=(const AlignedArray&) = delete;
@@ -62,8 +63,8 @@ SparseMatrix plus_diagonal(SparseMatrix A, const Vector& diagonal) {
 // Right-hand side of the Poisson equation for one triangle and all lanes. With u the heat, L_f the triangle's Laplacian
 // and g the gradient, X = -g / |g| has integrated divergence L_f u / |g| at the corners, so no 3D vector is formed; and
 // |g|^2 = u^T L_f u / area. u is first divided by its largest corner, which keeps tiny heat far away exact.
-FOCAL_INLINE void face_body(const double* u0, const double* u1, const double* u2, const float* coefficient, float* b0,
-                            float* b1, float* b2) {
+FOCAL_INLINE void face_body(const double* u0, const double* u1, const double* u2, const float* coefficient,
+                            float* b0, float* b1, float* b2) {
   const float c0 = coefficient[0], c1 = coefficient[1], c2 = coefficient[2], area = coefficient[3];
   for (int j = 0; j < lanes; ++j) {
     const double largest = std::max(std::max(u0[j], u1[j]), u2[j]);
@@ -79,8 +80,8 @@ FOCAL_INLINE void face_body(const double* u0, const double* u1, const double* u2
     b2[j] += f0 - f1;
   }
 }
-FOCAL_MULTIVERSION(void add_face(const double* u0, const double* u1, const double* u2, const float* coefficient,
-                                 float* b0, float* b1, float* b2),
+FOCAL_MULTIVERSION(void add_face(const double* u0, const double* u1, const double* u2,
+                                 const float* coefficient, float* b0, float* b1, float* b2),
                    face_body(u0, u1, u2, coefficient, b0, b1, b2);)
 
 }  // namespace
@@ -94,10 +95,11 @@ HeatMethod::HeatMethod(const TriangleMesh& mesh, const Operators& operators, dou
   poisson_ = SparseCholesky(plus_diagonal(operators.L, 1e-9 / operators.area * operators.mass));
   const auto& permutation = heat_.permutation();
   if (permutation != poisson_.permutation())
-    throw Error(Status::internal, "the two factors of the heat method are ordered differently", "report this");
+    throw Error(Status::internal, "the two factors of the heat method are ordered differently",
+                "report this");
 
   const int32_t m = mesh.triangle_count();
-  triangles_ = mesh.triangles;
+  positions_ = mesh.positions, triangles_ = mesh.triangles;
   faces_.resize(m, 3);
   face_coefficient_.resize(m, 4);
   std::vector<std::pair<int32_t, int32_t>> order(m);  // by smallest permuted corner
@@ -116,38 +118,44 @@ HeatMethod::HeatMethod(const TriangleMesh& mesh, const Operators& operators, dou
   }
 }
 
-void HeatMethod::solve_block(std::span<const Source> sources, double* heat, float* distance, float* out) const {
+void HeatMethod::solve_block(std::span<const Source> sources, double* heat, float* distance,
+                             float* out) const {
   const int32_t n = vertex_count();
   const size_t size = static_cast<size_t>(n) * lanes;
   const auto& row = heat_.permutation();
   std::fill(heat, heat + size, 0.0);
   for (int j = 0; j < lanes; ++j) {
     const Source& source = sources[std::min<size_t>(j, sources.size() - 1)];  // unused lanes repeat the last
-    for (int i = 0; i < 3; ++i) heat[static_cast<size_t>(row[source.vertex[i]]) * lanes + j] += source.weight[i];
+    for (int i = 0; i < 3; ++i)
+      heat[static_cast<size_t>(row[source.vertex[i]]) * lanes + j] += source.weight[i];
   }
   heat_.solve_block(heat);
   std::fill(distance, distance + size, 0.0f);
   for (Eigen::Index f = 0; f < faces_.rows(); ++f) {
     size_t at[3];
     for (int i = 0; i < 3; ++i) at[i] = static_cast<size_t>(faces_(f, i)) * lanes;
-    add_face(heat + at[0], heat + at[1], heat + at[2], &face_coefficient_(f, 0), distance + at[0], distance + at[1],
-             distance + at[2]);
+    add_face(heat + at[0], heat + at[1], heat + at[2], &face_coefficient_(f, 0), distance + at[0],
+             distance + at[1], distance + at[2]);
   }
   poisson_.solve_block(distance);
-  float zero[lanes];  // the level at the source, where the distance is 0
+  float zero
+      [lanes];  // the level that is distance 0: at the corners round a source it lies as far below as they are away
   for (int j = 0; j < lanes; ++j) {
     const Source& source = sources[std::min<size_t>(j, sources.size() - 1)];
-    zero[j] = 0;
+    zero[j] = -source.corner_distance;
     for (int i = 0; i < 3; ++i)
-      zero[j] += static_cast<float>(source.weight[i]) * distance[static_cast<size_t>(row[source.vertex[i]]) * lanes + j];
+      zero[j] += static_cast<float>(source.weight[i]) *
+                 distance[static_cast<size_t>(row[source.vertex[i]]) * lanes + j];
   }
   for (int32_t v = 0; v < n; ++v) {
     const float* from = distance + static_cast<size_t>(row[v]) * lanes;
-    for (int j = 0; j < lanes; ++j) out[static_cast<size_t>(v) * lanes + j] = std::max(from[j] - zero[j], 0.0f);
+    for (int j = 0; j < lanes; ++j)
+      out[static_cast<size_t>(v) * lanes + j] = std::max(from[j] - zero[j], 0.0f);
   }
 }
 
-void HeatMethod::run(std::span<const Source> sources, const Execution& execution, const BlockSink& sink) const {
+void HeatMethod::run(std::span<const Source> sources, const Execution& execution,
+                     const BlockSink& sink) const {
   const auto count = static_cast<int64_t>(sources.size());
   const size_t size = static_cast<size_t>(vertex_count()) * lanes;
   parallel_for(execution, (count + lanes - 1) / lanes, [&](int64_t block) {
@@ -163,11 +171,16 @@ void HeatMethod::run(std::span<const Source> sources, const Execution& execution
 void HeatMethod::for_each_block(std::span<const SurfacePoint> points, const Execution& execution,
                                 const BlockSink& sink) const {
   std::vector<Source> sources(points.size());
-  for (size_t s = 0; s < points.size(); ++s)
+  for (size_t s = 0; s < points.size(); ++s) {
+    const auto& weight = points[s].barycentric;
+    const auto corner = [&](int i) { return positions_.row(triangles_(points[s].triangle, i)); };
+    const Eigen::RowVector3d place = weight[0] * corner(0) + weight[1] * corner(1) + weight[2] * corner(2);
     for (int i = 0; i < 3; ++i) {
       sources[s].vertex[i] = triangles_(points[s].triangle, i);
-      sources[s].weight[i] = points[s].barycentric[i];
+      sources[s].weight[i] = weight[i];
+      sources[s].corner_distance += static_cast<float>(weight[i] * (corner(i) - place).norm());
     }
+  }
   run(sources, execution, sink);
 }
 
@@ -175,7 +188,7 @@ void HeatMethod::for_each_block(std::span<const int32_t> vertices, const Executi
                                 const BlockSink& sink) const {
   std::vector<Source> sources(vertices.size());
   for (size_t s = 0; s < vertices.size(); ++s)
-    sources[s] = {{vertices[s], vertices[s], vertices[s]}, {1, 0, 0}};
+    sources[s] = {{vertices[s], vertices[s], vertices[s]}, {1, 0, 0}, 0};
   run(sources, execution, sink);
 }
 

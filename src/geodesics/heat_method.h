@@ -39,6 +39,7 @@ class HeatMethod {
   struct Source {
     int32_t vertex[3];
     double weight[3];
+    float corner_distance = 0;  // weighted mean of the corners' distances from the source
   };
   void solve_block(std::span<const Source> sources, double* heat, float* distance, float* out) const;
   void run(std::span<const Source> sources, const Execution& execution, const BlockSink& sink) const;
@@ -46,8 +47,9 @@ class HeatMethod {
   double time_ = 0;
   bool time_was_raised_ = false;
   SparseCholesky heat_, poisson_;
-  MatrixX3i triangles_, faces_;      // as given; and sorted, with permuted corners, for memory locality
-  RowMatrixf face_coefficient_;      // per face: half cotangents of its corners, area
+  MatrixX3 positions_;
+  MatrixX3i triangles_, faces_;  // as given; and sorted, with permuted corners, for memory locality
+  RowMatrixf face_coefficient_;  // per face: half cotangents of its corners, area
 };
 
 }  // namespace focal

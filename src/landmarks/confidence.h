@@ -9,9 +9,11 @@
 
 namespace focal {
 
-inline constexpr double near_radius = 0.04;  // of sqrt(area): "within" of the confidence's meaning; two to four edges
+inline constexpr double near_radius =
+    0.04;  // of sqrt(area): "within" of the confidence's meaning; two to four edges
 
-std::array<float, Calibration::feature_count> confidence_features(const Evidence& evidence, float typical_vote);
+std::array<float, Calibration::feature_count> confidence_features(const Evidence& evidence,
+                                                                  float typical_vote);
 
 // One judged placement: of a landmark, with its evidence and its distance from the truth in sqrt(area).
 struct JudgedPlacement {

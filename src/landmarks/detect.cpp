@@ -30,7 +30,7 @@ LandmarkStatus status_of(double confidence, const DetectParams& params) {
 DetectedLandmark landmark_at(const LandmarkModel& model, const PreparedMesh& mesh, const Placement& placement,
                              int32_t l, const DetectParams& params) {
   DetectedLandmark landmark;
-  if (placement.vertex[l] < 0) return landmark;  // no vote at all: absent
+  if (placement.vertex[l] < 0) return landmark;             // no vote at all: absent
   const bool paper = model.params.preset == Preset::paper;  // the paper gives no confidence: its vote stands
   const double confidence = paper ? 1 : confidence_of(model.calibration, l, placement.evidence[l]);
   static_cast<DetectedPoint&>(landmark) = point_at(mesh, placement.vertex[l], confidence);
@@ -38,7 +38,8 @@ DetectedLandmark landmark_at(const LandmarkModel& model, const PreparedMesh& mes
   landmark.expected_error = mesh.scale * expected_error_of(model.calibration, confidence);
   if (placement.rival[l] >= 0) {
     const float rival = placement.evidence[l].rival;  // shares what the winner leaves, by its votes
-    landmark.runner_up = point_at(mesh, placement.rival[l], (1 - confidence) * std::min(1.0f, rival / (1 + rival)));
+    landmark.runner_up =
+        point_at(mesh, placement.rival[l], (1 - confidence) * std::min(1.0f, rival / (1 + rival)));
   }
   return landmark;
 }
@@ -49,16 +50,19 @@ Detection detect(std::shared_ptr<const LandmarkModel> model, std::shared_ptr<con
                  const DetectParams& params, const Execution& execution) {
   if (!(params.sampling_rate > 0 && params.sampling_rate <= 1) || params.max_samples < 1 ||
       params.peaks_per_landmark < 1)
-    throw Error(Status::invalid_argument, "a detection parameter is out of its range", "start from the defaults");
+    throw Error(Status::invalid_argument, "a detection parameter is out of its range",
+                "start from the defaults");
   Stopwatch whole;
   Detection result;
   const bool paper = model->params.preset == Preset::paper;
   execution.begin_stage("analysis", 0, 0.4);
-  const SurfaceAnalysis analysis =
-      analyse_surface(*mesh,
-                      {.eigenpair_count = model->params.eigenpair_count, .sampling_rate = params.sampling_rate,
-                       .max_samples = params.max_samples, .seed = params.seed, .stream = 0},
-                      execution);
+  const SurfaceAnalysis analysis = analyse_surface(*mesh,
+                                                   {.eigenpair_count = model->params.eigenpair_count,
+                                                    .sampling_rate = params.sampling_rate,
+                                                    .max_samples = params.max_samples,
+                                                    .seed = params.seed,
+                                                    .stream = 0},
+                                                   execution);
   result.seconds.spectrum = analysis.spectrum_seconds;
   result.seconds.descriptors = analysis.descriptor_seconds;
   result.seconds.geodesics = analysis.geodesic_seconds;

@@ -16,15 +16,15 @@ namespace focal {
 enum class LandmarkStatus : int32_t { found = 0, uncertain = 1, absent = 2 };
 
 struct DetectedPoint {
-  SurfacePoint source_point;      // on mesh->source: the caller's triangle numbers
-  int32_t source_vertex = -1;     // the caller's vertex nearest to it
+  SurfacePoint source_point;           // on mesh->source: the caller's triangle numbers
+  int32_t source_vertex = -1;          // the caller's vertex nearest to it
   Vector3 position = Vector3::Zero();  // caller's coordinates
-  double confidence = 0;          // 0..1: probability of lying within 4 % of sqrt(area) of the truth
+  double confidence = 0;               // 0..1: probability of lying within 4 % of sqrt(area) of the truth
 };
 
 struct DetectedLandmark : DetectedPoint {
   LandmarkStatus status = LandmarkStatus::absent;
-  double expected_error = 0;      // caller's units
+  double expected_error = 0;  // caller's units
   std::optional<DetectedPoint> runner_up;
 };
 
@@ -37,9 +37,9 @@ struct StageSeconds {
 struct Detection {
   std::shared_ptr<const LandmarkModel> model;
   std::shared_ptr<const PreparedMesh> mesh;
-  std::vector<DetectedLandmark> landmarks;      // one a landmark name of the model, in its order
-  RowMatrixf votes;                             // landmarks x surface vertices, each row's largest is 1; may be empty
-  double category_fit = 0;                      // 0..1
+  std::vector<DetectedLandmark> landmarks;  // one a landmark name of the model, in its order
+  RowMatrixf votes;         // landmarks x surface vertices, each row's largest is 1; may be empty
+  double category_fit = 0;  // 0..1
   std::vector<std::string> warnings;
   StageSeconds seconds;
 };

@@ -7,9 +7,11 @@
 namespace focal {
 namespace {
 
-constexpr double bin_width = 0.0125;  // of sqrt(area): under an edge length of meshes of a few thousand vertices
-constexpr double smoothing = 0.024;   // standard deviation of the Gaussian, likewise; measured in the reference
-constexpr double mu = 5;              // Xia et al. 2016, Section 5
+constexpr double bin_width =
+    0.0125;  // of sqrt(area): under an edge length of meshes of a few thousand vertices
+constexpr double smoothing =
+    0.024;                // standard deviation of the Gaussian, likewise; measured in the reference
+constexpr double mu = 5;  // Xia et al. 2016, Section 5
 
 std::vector<float> gaussian_kernel() {
   const int32_t half = static_cast<int32_t>(std::ceil(4 * smoothing / bin_width));
@@ -33,7 +35,8 @@ RowMatrixf leaf_histogram(const LandmarkModel& model, const float* descriptor, i
       const auto target = model.targets.row(tree.leaf_samples[i]);
       for (Eigen::Index l = 0; l < target.size(); ++l)
         if (target[l] != target_missing)
-          histogram(std::min(static_cast<int32_t>(static_cast<float>(target[l]) * to_bin), bins - 1), l) += weight;
+          histogram(std::min(static_cast<int32_t>(static_cast<float>(target[l]) * to_bin), bins - 1), l) +=
+              weight;
     }
   }
   return histogram;
@@ -52,7 +55,8 @@ VoteTables leaf_vote_tables(const LandmarkModel& model, const Eigen::Ref<const R
   const auto half = static_cast<int32_t>(kernel.size()) - 1;
   parallel_for(execution, descriptors.rows(), [&](int64_t s) {
     const RowMatrixf histogram = leaf_histogram(model, descriptors.row(s).data(), tables.bins);
-    Eigen::Map<RowMatrixf> table(&tables.weight[s * tables.bins * tables.landmarks], tables.bins, tables.landmarks);
+    Eigen::Map<RowMatrixf> table(&tables.weight[s * tables.bins * tables.landmarks], tables.bins,
+                                 tables.landmarks);
     for (int32_t b = 0; b < tables.bins; ++b) {
       for (int32_t k = -half; k <= half; ++k)  // the ends repeat
         table.row(b) += kernel[std::abs(k)] * histogram.row(std::clamp(b + k, 0, tables.bins - 1));

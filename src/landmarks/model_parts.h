@@ -15,11 +15,11 @@ inline constexpr uint16_t target_steps = 65534;    // target / target_steps * re
 
 // Turns how well a landmark fits into a probability; learned on shapes left out of the forest that judged them.
 struct Calibration {
-  static constexpr int32_t feature_count = 4;     // see landmarks/confidence.h
-  std::vector<float> typical_vote;                // per landmark: vote a sample at the true place, 0 when unknown
-  float weight[feature_count + 1] = {};           // logistic regression; the last is the bias
-  float near_error = 0.02f, far_error = 0.5f;     // mean error when right and when wrong, of sqrt(area)
-  float fit_centre = 0, fit_scale = 1;            // category fit: logistic of a mesh's mean evidence
+  static constexpr int32_t feature_count = 4;  // see landmarks/confidence.h
+  std::vector<float> typical_vote;       // per landmark: vote a sample at the true place, 0 when unknown
+  float weight[feature_count + 1] = {};  // logistic regression; the last is the bias
+  float near_error = 0.02f, far_error = 0.5f;  // mean error when right and when wrong, of sqrt(area)
+  float fit_centre = 0, fit_scale = 1;         // category fit: logistic of a mesh's mean evidence
 };
 
 struct LandmarkModel {
@@ -30,8 +30,8 @@ struct LandmarkModel {
   // default: one forest for all landmarks, its leaves keep samples (rows of targets).
   // paper: one forest a landmark, its leaves keep means; targets is empty.
   std::vector<RegressionForest> forests;
-  TargetMatrix targets;       // samples x landmarks
-  float reach = 0;            // largest target, of sqrt(area)
+  TargetMatrix targets;  // samples x landmarks
+  float reach = 0;       // largest target, of sqrt(area)
   ConstellationStatistics constellation;
   Calibration calibration;
 };

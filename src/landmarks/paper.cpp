@@ -11,8 +11,8 @@ namespace focal {
 namespace {
 
 constexpr int lanes = HeatMethod::lanes;
-constexpr double mu = 5;                 // Section 5: weight factor
-constexpr float neighbourhood = 0.02f;   // Section 5: radius over which votes are averaged
+constexpr double mu = 5;                // Section 5: weight factor
+constexpr float neighbourhood = 0.02f;  // Section 5: radius over which votes are averaged
 
 // +1 on the side to which the symmetry plane's normal points, -1 on the other (Section 4.1).
 Vector signed_sides(const SymmetryPlane& plane, const MatrixX3& positions) {
@@ -20,7 +20,8 @@ Vector signed_sides(const SymmetryPlane& plane, const MatrixX3& positions) {
 }
 
 // Section 4.1: on the side that the normal does not point to, the components stand in reverse order.
-RowMatrixf with_sides(const RowMatrixf& descriptors, std::span<const int32_t> samples, const Vector& side, double sign) {
+RowMatrixf with_sides(const RowMatrixf& descriptors, std::span<const int32_t> samples, const Vector& side,
+                      double sign) {
   RowMatrixf result = descriptors;
   for (size_t s = 0; s < samples.size(); ++s)
     if (side[samples[s]] * sign < 0) result.row(s) = descriptors.row(s).reverse().eval();
@@ -35,28 +36,34 @@ void largest_of(const float* distances, int32_t n, float* largest) {
 }
 
 // samples x landmarks: distance from the sample to the mark over the sample's largest distance; NaN where not marked.
-RowMatrixf normalised_targets(const MarkedShape& shape, const SurfaceAnalysis& analysis, const Execution& execution) {
+RowMatrixf normalised_targets(const MarkedShape& shape, const SurfaceAnalysis& analysis,
+                              const Execution& execution) {
   RowMatrixf targets = RowMatrixf::Constant(analysis.samples.size(), shape.marks.size(), NAN);
   const int32_t n = analysis.heat.vertex_count();
-  analysis.heat.for_each_block(analysis.samples, execution, [&](int64_t first, int32_t count, const float* distances) {
-    float largest[lanes];
-    largest_of(distances, n, largest);
-    for (size_t l = 0; l < shape.marks.size(); ++l) {
-      if (!shape.marks[l]) continue;
-      for (int32_t j = 0; j < count; ++j) {
-        double d = 0;
-        for (int i = 0; i < 3; ++i)
-          d += shape.marks[l]->barycentric[i] *
-               distances[static_cast<int64_t>(shape.mesh->surface.triangles(shape.marks[l]->triangle, i)) * lanes + j];
-        targets(first + j, l) = static_cast<float>(d / largest[j]);
-      }
-    }
-  });
+  analysis.heat.for_each_block(
+      analysis.samples, execution, [&](int64_t first, int32_t count, const float* distances) {
+        float largest[lanes];
+        largest_of(distances, n, largest);
+        for (size_t l = 0; l < shape.marks.size(); ++l) {
+          if (!shape.marks[l]) continue;
+          for (int32_t j = 0; j < count; ++j) {
+            double d = 0;
+            for (int i = 0; i < 3; ++i)
+              d +=
+                  shape.marks[l]->barycentric[i] *
+                  distances[static_cast<int64_t>(shape.mesh->surface.triangles(shape.marks[l]->triangle, i)) *
+                                lanes +
+                            j];
+            targets(first + j, l) = static_cast<float>(d / largest[j]);
+          }
+        }
+      });
   return targets;
 }
 
 // The normal's sign is not given in the paper. Ours: the side on which the marks agree with the first shape's.
-double consistent_sign(const MarkedShape& shape, const MarkedShape& first, const Vector& side, const Vector& first_side) {
+double consistent_sign(const MarkedShape& shape, const MarkedShape& first, const Vector& side,
+                       const Vector& first_side) {
   const auto at_mark = [](const MarkedShape& s, size_t l, const Vector& value) {
     double sum = 0;
     for (int i = 0; i < 3; ++i)
@@ -65,19 +72,22 @@ double consistent_sign(const MarkedShape& shape, const MarkedShape& first, const
   };
   double agreement = 0;
   for (size_t l = 0; l < shape.marks.size(); ++l)
-    if (shape.marks[l] && first.marks[l]) agreement += at_mark(shape, l, side) * at_mark(first, l, first_side);
+    if (shape.marks[l] && first.marks[l])
+      agreement += at_mark(shape, l, side) * at_mark(first, l, first_side);
   return agreement < 0 ? -1 : 1;
 }
 
 // Forest of one landmark over the samples of the shapes on which it is marked.
-RegressionForest landmark_forest(const RowMatrixf& descriptors, const RowMatrixf& targets, int32_t landmark,
-                                 const ForestParams& params, const Execution& execution) {
+RegressionForest landmark_forest(const BinnedDescriptors& descriptors, const RowMatrixf& targets,
+                                 int32_t landmark, const ForestParams& params, const Execution& execution) {
   std::vector<Eigen::Index> rows;
   for (Eigen::Index s = 0; s < targets.rows(); ++s)
     if (!std::isnan(targets(s, landmark))) rows.push_back(s);
   const RowMatrixf own_targets = targets(rows, std::vector<int32_t>{landmark});
-  const BinnedDescriptors binned = bin_descriptors(descriptors(rows, Eigen::all), execution);
-  RegressionForest forest = grow_forest(binned, own_targets, params, execution);
+  const bool everywhere = static_cast<Eigen::Index>(rows.size()) == targets.rows();
+  RegressionForest forest = everywhere ? grow_forest(descriptors, own_targets, params, execution)
+                                       : grow_forest({descriptors.bins(rows, Eigen::all), descriptors.upper},
+                                                     own_targets, params, execution);
   keep_leaf_means(forest, own_targets, 0);
   return forest;
 }
@@ -98,20 +108,21 @@ TwoVotes cast_votes(const PreparedMesh& mesh, const SurfaceAnalysis& analysis, c
   for (int32_t from = 0; from < samples; from += parts * lanes) {
     const int32_t batch = std::min(parts * lanes, samples - from);
     std::vector<TwoVotes> partial(parts);
-    analysis.heat.for_each_block(
-        std::span(analysis.samples).subspan(from, batch), execution,
-        [&](int64_t first, int32_t count, const float* distances) {
-          float largest[lanes];
-          largest_of(distances, n, largest);
-          std::vector<float> scaled(static_cast<size_t>(n) * lanes);
-          for (int64_t v = 0; v < n; ++v)
-            for (int j = 0; j < lanes; ++j) scaled[v * lanes + j] = distances[v * lanes + j] / largest[j];
-          for (int s = 0; s < 2; ++s) {
-            RowMatrixf& votes = partial[first / lanes].sign[s];
-            votes = RowMatrixf::Zero(n, radii[s].cols());
-            add_isoline_votes(radii[s].middleRows(from + first, count), scaled.data(), count, edges, mu, votes);
-          }
-        });
+    analysis.heat.for_each_block(std::span(analysis.samples).subspan(from, batch), execution,
+                                 [&](int64_t first, int32_t count, const float* distances) {
+                                   float largest[lanes];
+                                   largest_of(distances, n, largest);
+                                   std::vector<float> scaled(static_cast<size_t>(n) * lanes);
+                                   for (int64_t v = 0; v < n; ++v)
+                                     for (int j = 0; j < lanes; ++j)
+                                       scaled[v * lanes + j] = distances[v * lanes + j] / largest[j];
+                                   for (int s = 0; s < 2; ++s) {
+                                     RowMatrixf& votes = partial[first / lanes].sign[s];
+                                     votes = RowMatrixf::Zero(n, radii[s].cols());
+                                     add_isoline_votes(radii[s].middleRows(from + first, count),
+                                                       scaled.data(), count, edges, mu, votes);
+                                   }
+                                 });
     for (const TwoVotes& part : partial)
       for (int s = 0; s < 2; ++s)
         if (part.sign[s].size()) total.sign[s] += part.sign[s];
@@ -145,8 +156,8 @@ TwoVotes average_nearby(const TwoVotes& votes, const SurfaceAnalysis& analysis, 
 
 }  // namespace
 
-void train_paper_forests(LandmarkModel& model, const TrainingSet& set, const std::vector<SurfaceAnalysis>& analyses,
-                         const Execution& execution) {
+void train_paper_forests(LandmarkModel& model, const TrainingSet& set,
+                         const std::vector<SurfaceAnalysis>& analyses, const Execution& execution) {
   Eigen::Index rows = 0;
   for (const auto& analysis : analyses) rows += analysis.descriptors.rows();
   RowMatrixf descriptors(rows, analyses[0].descriptors.cols()), targets(rows, set.landmark_names.size());
@@ -166,18 +177,22 @@ void train_paper_forests(LandmarkModel& model, const TrainingSet& set, const std
     execution.report(static_cast<double>(s + 1) / static_cast<double>(analyses.size()));
   }
   model.reach = 1;
-  ForestParams forest{.tree_count = model.params.tree_count, .min_leaf_samples = 1,
+  ForestParams forest{.tree_count = model.params.tree_count,
+                      .min_leaf_samples = 1,
                       .min_split_samples = 2 * model.params.min_leaf_samples,
-                      .components_per_split = model.params.components_per_split, .seed = model.params.seed};
+                      .components_per_split = model.params.components_per_split,
+                      .seed = model.params.seed};
   const auto L = static_cast<int32_t>(set.landmark_names.size());
+  const BinnedDescriptors binned = bin_descriptors(descriptors, execution);
   for (int32_t l = 0; l < L; ++l) {
     execution.begin_stage("forest", 0.7 + 0.3 * l / L, 0.7 + 0.3 * (l + 1) / L);
-    model.forests.push_back(landmark_forest(descriptors, targets, l, forest, execution));
+    model.forests.push_back(landmark_forest(binned, targets, l, forest, execution));
   }
 }
 
-Placement place_landmarks_paper(const LandmarkModel& model, const PreparedMesh& mesh, const SurfaceAnalysis& analysis,
-                                const DetectParams& params, const Execution& execution, StageSeconds& seconds) {
+Placement place_landmarks_paper(const LandmarkModel& model, const PreparedMesh& mesh,
+                                const SurfaceAnalysis& analysis, const DetectParams& params,
+                                const Execution& execution, StageSeconds& seconds) {
   Stopwatch watch;
   const auto L = static_cast<int32_t>(model.landmark_names.size());
   const Vector side =
@@ -201,8 +216,10 @@ Placement place_landmarks_paper(const LandmarkModel& model, const PreparedMesh& 
     const float vote = result.votes.col(l).maxCoeff(&best);
     result.vertex.push_back(static_cast<int32_t>(best));
     result.rival.push_back(-1);
-    result.evidence.push_back({.vote_ratio = 1, .residual = 0,
-                               .vote_level = vote / static_cast<float>(analysis.samples.size()), .rival = 0});
+    result.evidence.push_back({.vote_ratio = 1,
+                               .residual = 0,
+                               .vote_level = vote / static_cast<float>(analysis.samples.size()),
+                               .rival = 0});
   }
   return result;
 }

@@ -11,22 +11,22 @@ struct TrainParams {
   Preset preset = Preset::default_preset;
   int32_t eigenpair_count = 200;
   int32_t tree_count = 30;
-  int32_t min_leaf_samples = 5;       // default: smallest leaf; paper: a node of fewer than twice that is a leaf
-  int32_t components_per_split = 5;   // random descriptor components tried at each split
-  double sampling_rate = 0.5;         // of the vertices of each training shape
+  int32_t min_leaf_samples = 5;  // default: smallest leaf; paper: a node of fewer than twice that is a leaf
+  int32_t components_per_split = 5;  // random descriptor components tried at each split
+  double sampling_rate = 0.5;        // of the vertices of each training shape
   int32_t max_samples_per_shape = 6250;
   uint64_t seed = 0;
   static TrainParams from_preset(Preset preset);
 };
 
 struct DetectParams {
-  double sampling_rate = 0.1;         // of the vertices
+  double sampling_rate = 0.1;  // of the vertices
   int32_t max_samples = 1250;
   int32_t peaks_per_landmark = 8;
-  double found_confidence = 0.5;      // below: uncertain
-  double absent_confidence = 0.05;    // below: absent
+  double found_confidence = 0.5;    // below: uncertain
+  double absent_confidence = 0.05;  // below: absent
   Quality quality = Quality::best;
-  bool keep_votes = true;             // keep the vote maps in the detection
+  bool keep_votes = true;  // keep the vote maps in the detection
   uint64_t seed = 1;
 };
 

@@ -6,6 +6,7 @@
 
 #include "base/stopwatch.h"
 #include "landmarks/leaf_votes.h"
+#include "landmarks/refine.h"
 #include "vote/peaks.h"
 #include "vote/vote.h"
 
@@ -13,9 +14,9 @@ namespace focal {
 namespace {
 
 constexpr int lanes = HeatMethod::lanes;
-constexpr int32_t blocks_at_once = 4;       // fixed, so that memory and results do not depend on the threads
-constexpr double peak_separation = 0.08;    // of sqrt(area), as measured in the reference
-constexpr double disc_radius = 0.04;        // of the tangent directions, likewise
+constexpr int32_t blocks_at_once = 4;     // fixed, so that memory and results do not depend on the threads
+constexpr double peak_separation = 0.08;  // of sqrt(area), as measured in the reference
+constexpr double disc_radius = 0.04;      // of the tangent directions, likewise
 
 // votes: vertices x landmarks, of the first `count` samples.
 RowMatrixf cast_votes(const LandmarkModel& model, const SurfaceAnalysis& analysis, int32_t count,
@@ -29,7 +30,8 @@ RowMatrixf cast_votes(const LandmarkModel& model, const SurfaceAnalysis& analysi
     const int32_t batch = std::min(blocks_at_once * lanes, count - first);
     analysis.heat.for_each_block(std::span(analysis.samples).subspan(first, batch), execution,
                                  [&](int64_t at, int32_t, const float* block) {
-                                   std::memcpy(&distances[at / lanes * block_size], block, block_size * sizeof(float));
+                                   std::memcpy(&distances[at / lanes * block_size], block,
+                                               block_size * sizeof(float));
                                  });
     seconds.geodesics += watch.lap();
     for (int32_t b = 0; b * lanes < batch; ++b) {
@@ -45,9 +47,10 @@ RowMatrixf cast_votes(const LandmarkModel& model, const SurfaceAnalysis& analysi
   return votes;
 }
 
-ConstellationCandidates make_candidates(const std::vector<std::vector<int32_t>>& peaks, const RowMatrixf& votes,
-                                        const PreparedMesh& mesh, const SurfaceAnalysis& analysis,
-                                        std::vector<int32_t>& vertices, const Execution& execution) {
+ConstellationCandidates make_candidates(const std::vector<std::vector<int32_t>>& peaks,
+                                        const RowMatrixf& votes, const PreparedMesh& mesh,
+                                        const SurfaceAnalysis& analysis, std::vector<int32_t>& vertices,
+                                        const Execution& execution) {
   ConstellationCandidates candidates;
   for (size_t l = 0; l < peaks.size(); ++l) {
     candidates.start.push_back(static_cast<int32_t>(vertices.size()));
@@ -71,9 +74,9 @@ ConstellationCandidates make_candidates(const std::vector<std::vector<int32_t>>&
   return candidates;
 }
 
-void record_evidence(const std::vector<std::vector<int32_t>>& peaks, const ConstellationCandidates& candidates,
-                     const ConstellationChoice& choice, int32_t sample_count, const std::vector<int32_t>& vertices,
-                     Placement& result) {
+void record_evidence(const std::vector<std::vector<int32_t>>& peaks,
+                     const ConstellationCandidates& candidates, const ConstellationChoice& choice,
+                     int32_t sample_count, const std::vector<int32_t>& vertices, Placement& result) {
   const auto L = static_cast<int32_t>(peaks.size());
   result.vertex.assign(L, -1), result.rival.assign(L, -1), result.evidence.assign(L, {});
   for (int32_t l = 0; l < L; ++l) {
@@ -81,8 +84,10 @@ void record_evidence(const std::vector<std::vector<int32_t>>& peaks, const Const
     const int32_t v = result.vertex[l] = vertices[choice.candidate[l]];
     const float vote = result.votes(v, l);
     Evidence& evidence = result.evidence[l];
-    evidence = {.vote_ratio = 1 - candidates.unary[choice.candidate[l]], .residual = choice.residual[l],
-                .vote_level = vote / static_cast<float>(sample_count), .rival = 0};
+    evidence = {.vote_ratio = 1 - candidates.unary[choice.candidate[l]],
+                .residual = choice.residual[l],
+                .vote_level = vote / static_cast<float>(sample_count),
+                .rival = 0};
     for (const int32_t other : peaks[l])
       if (other != v) {
         result.rival[l] = other;
@@ -94,15 +99,16 @@ void record_evidence(const std::vector<std::vector<int32_t>>& peaks, const Const
 
 }  // namespace
 
-Placement place_landmarks(const LandmarkModel& model, const PreparedMesh& mesh, const SurfaceAnalysis& analysis,
-                          int32_t sample_limit, const DetectParams& params, const Execution& execution,
-                          StageSeconds& seconds) {
+Placement place_landmarks(const LandmarkModel& model, const PreparedMesh& mesh,
+                          const SurfaceAnalysis& analysis, int32_t sample_limit, const DetectParams& params,
+                          const Execution& execution, StageSeconds& seconds) {
   Placement result;
   const int32_t samples = std::min(sample_limit, static_cast<int32_t>(analysis.samples.size()));
   result.votes = cast_votes(model, analysis, samples, execution, seconds);
   Stopwatch watch;
-  const auto peaks = find_peaks(result.votes, params.peaks_per_landmark, peak_separation, 0,
-                                [&](std::span<const int32_t> v) { return analysis.heat.distances(v, execution); });
+  const auto peaks =
+      find_peaks(result.votes, params.peaks_per_landmark, peak_separation, 0,
+                 [&](std::span<const int32_t> v) { return analysis.heat.distances(v, execution); });
   seconds.vote += watch.lap();
   std::vector<int32_t> vertices;
   const ConstellationCandidates candidates =
@@ -112,6 +118,8 @@ Placement place_landmarks(const LandmarkModel& model, const PreparedMesh& mesh, 
   result.energy = choice.energy;
   record_evidence(peaks, candidates, choice, samples, vertices, result);
   seconds.constellation += watch.lap();
+  refine_placement(model.constellation, analysis, result, execution);
+  seconds.refine += watch.lap();
   return result;
 }
 

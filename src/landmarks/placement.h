@@ -10,23 +10,23 @@ namespace focal {
 
 // What speaks for one placed landmark; the features of its confidence.
 struct Evidence {
-  float vote_ratio = 0;      // vote at the place / best vote of the landmark, 0..1
-  float residual = 0;        // see ConstellationChoice
-  float vote_level = 0;      // vote a sample at the place
-  float rival = 0;           // best vote of its other peaks / vote at the place
+  float vote_ratio = 0;  // vote at the place / best vote of the landmark, 0..1
+  float residual = 0;    // see ConstellationChoice
+  float vote_level = 0;  // vote a sample at the place
+  float rival = 0;       // best vote of its other peaks / vote at the place
 };
 
 struct Placement {
-  std::vector<int32_t> vertex;     // one a landmark, of the surface; -1 when there is no vote for it
-  std::vector<int32_t> rival;      // its strongest other peak, or -1
+  std::vector<int32_t> vertex;  // one a landmark, of the surface; -1 when there is no vote for it
+  std::vector<int32_t> rival;   // its strongest other peak, or -1
   std::vector<Evidence> evidence;
-  double energy = 0;               // of the constellation
-  RowMatrixf votes;                // vertices x landmarks
+  double energy = 0;  // of the constellation
+  RowMatrixf votes;   // vertices x landmarks
 };
 
 // sample_limit: at most so many of the analysis' samples vote.
-Placement place_landmarks(const LandmarkModel& model, const PreparedMesh& mesh, const SurfaceAnalysis& analysis,
-                          int32_t sample_limit, const DetectParams& params, const Execution& execution,
-                          StageSeconds& seconds);
+Placement place_landmarks(const LandmarkModel& model, const PreparedMesh& mesh,
+                          const SurfaceAnalysis& analysis, int32_t sample_limit, const DetectParams& params,
+                          const Execution& execution, StageSeconds& seconds);
 
 }  // namespace focal

@@ -19,7 +19,8 @@ int32_t sample_count(int32_t vertices, const AnalysisParams& params) {
 
 }  // namespace
 
-SurfaceAnalysis analyse_surface(const PreparedMesh& mesh, const AnalysisParams& params, const Execution& execution) {
+SurfaceAnalysis analyse_surface(const PreparedMesh& mesh, const AnalysisParams& params,
+                                const Execution& execution) {
   SurfaceAnalysis result;
   Stopwatch watch;
   result.operators = make_operators(mesh.surface, mesh.bridges);
@@ -28,6 +29,8 @@ SurfaceAnalysis analyse_surface(const PreparedMesh& mesh, const AnalysisParams& 
   execution.check_cancelled();
   EigenParams eigen;
   eigen.count = params.eigenpair_count;
+  eigen.method = EigenMethod::chebyshev;
+  eigen.tolerance = 1e-6;  // far below what the signatures, and a forest's thresholds, can tell
   const Eigenbasis basis = eigenbasis(result.operators.L, result.operators.mass, eigen, execution);
   result.spectrum_seconds = watch.lap();
   Random random(params.seed, params.stream);

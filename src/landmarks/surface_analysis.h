@@ -12,7 +12,7 @@ namespace focal {
 
 struct AnalysisParams {
   int32_t eigenpair_count = 200;
-  double sampling_rate = 0.1;   // of the vertices
+  double sampling_rate = 0.1;  // of the vertices
   int32_t max_samples = 1250;
   uint64_t seed = 0, stream = 0;
 };
@@ -25,6 +25,7 @@ struct SurfaceAnalysis {
   double spectrum_seconds = 0, descriptor_seconds = 0, geodesic_seconds = 0;
 };
 
-SurfaceAnalysis analyse_surface(const PreparedMesh& mesh, const AnalysisParams& params, const Execution& execution);
+SurfaceAnalysis analyse_surface(const PreparedMesh& mesh, const AnalysisParams& params,
+                                const Execution& execution);
 
 }  // namespace focal

@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cmath>
 
-
 #include "base/error.h"
 #include "base/random.h"
 #include "landmarks/confidence.h"
@@ -21,40 +20,44 @@ constexpr int32_t folds = 3;          // of the cross-fitted confidence
 
 // What the training keeps of one shape.
 struct LearnedShape {
-  RowMatrixf targets;               // samples x landmarks: distance to the mark, NaN where there is none
+  RowMatrixf targets;  // samples x landmarks: distance to the mark, NaN where there is none
   ConstellationSample constellation;
 };
 
 void validate(const TrainingSet& set, const TrainParams& params) {
   const auto L = set.landmark_names.size();
   if (L == 0)
-    throw Error(Status::invalid_argument, "the training set has no landmark names", "name at least one landmark");
+    throw Error(Status::invalid_argument, "the training set has no landmark names",
+                "name at least one landmark");
   if (params.tree_count < 1 || params.components_per_split < 1 || params.min_leaf_samples < 1 ||
       params.eigenpair_count < 8 || params.max_samples_per_shape < 1 ||
       !(params.sampling_rate > 0 && params.sampling_rate <= 1))
     throw Error(Status::invalid_argument, "a training parameter is out of its range", "start from a preset");
   if (set.shapes.size() < 2)
     throw Error(Status::too_few_shapes,
-                "the training set has " + std::to_string(set.shapes.size()) + " mesh" + (set.shapes.size() == 1 ? "" : "es"),
+                "the training set has " + std::to_string(set.shapes.size()) + " mesh" +
+                    (set.shapes.size() == 1 ? "" : "es"),
                 "mark the landmarks on at least two meshes, better on ten");
   for (size_t l = 0; l < L; ++l) {
     const auto marked = std::count_if(set.shapes.begin(), set.shapes.end(),
                                       [&](const MarkedShape& shape) { return shape.marks[l].has_value(); });
     if (marked < 2)
       throw Error(Status::too_few_shapes,
-                  "landmark '" + set.landmark_names[l] + "' is marked on " + std::to_string(marked) + " mesh" +
-                      (marked == 1 ? "" : "es"),
+                  "landmark '" + set.landmark_names[l] + "' is marked on " + std::to_string(marked) +
+                      " mesh" + (marked == 1 ? "" : "es"),
                   "mark it on at least two meshes or leave it out");
   }
 }
 
 float at_point(const PreparedMesh& mesh, const SurfacePoint& point, const float* field) {
   double value = 0;
-  for (int i = 0; i < 3; ++i) value += point.barycentric[i] * field[mesh.surface.triangles(point.triangle, i)];
+  for (int i = 0; i < 3; ++i)
+    value += point.barycentric[i] * field[mesh.surface.triangles(point.triangle, i)];
   return static_cast<float>(value);
 }
 
-LearnedShape learn_shape(const MarkedShape& shape, const SurfaceAnalysis& analysis, const Execution& execution) {
+LearnedShape learn_shape(const MarkedShape& shape, const SurfaceAnalysis& analysis,
+                         const Execution& execution) {
   const auto L = static_cast<int32_t>(shape.marks.size());
   LearnedShape result;
   std::vector<SurfacePoint> points;
@@ -71,7 +74,8 @@ LearnedShape learn_shape(const MarkedShape& shape, const SurfaceAnalysis& analys
   const TangentDirections directions =
       tangent_directions(shape.mesh->surface, points, fields, disc_radius, execution);
   for (size_t a = 0; a < points.size(); ++a) {
-    for (size_t s = 0; s < analysis.samples.size(); ++s) result.targets(s, landmark[a]) = fields(a, analysis.samples[s]);
+    for (size_t s = 0; s < analysis.samples.size(); ++s)
+      result.targets(s, landmark[a]) = fields(a, analysis.samples[s]);
     for (size_t b = 0; b < points.size(); ++b) {
       constellation.distance(landmark[a], landmark[b]) = at_point(*shape.mesh, points[b], &fields(a, 0));
       constellation.directions.x(landmark[a], landmark[b]) = directions.x(a, b);
@@ -104,21 +108,25 @@ void learn_parts(LandmarkModel& model, const std::vector<const SurfaceAnalysis*>
       if (!std::isnan(targets(s, l))) sum += targets(s, l), ++count;
     for (Eigen::Index s = 0; s < rows; ++s) {
       const bool missing = std::isnan(targets(s, l));
-      model.targets(s, l) = missing ? target_missing
-                                    : static_cast<uint16_t>(std::lround(targets(s, l) / model.reach * target_steps));
+      model.targets(s, l) =
+          missing ? target_missing
+                  : static_cast<uint16_t>(std::lround(targets(s, l) / model.reach * target_steps));
       if (missing) targets(s, l) = static_cast<float>(sum / count);  // has no say in where the trees split
     }
   }
   model.constellation = learn_constellation(constellations, static_cast<int32_t>(L));
-  const ForestParams forest{.tree_count = model.params.tree_count, .min_leaf_samples = model.params.min_leaf_samples,
+  const ForestParams forest{.tree_count = model.params.tree_count,
+                            .min_leaf_samples = model.params.min_leaf_samples,
                             .min_split_samples = 2 * model.params.min_leaf_samples,
-                            .components_per_split = model.params.components_per_split, .seed = model.params.seed};
+                            .components_per_split = model.params.components_per_split,
+                            .seed = model.params.seed};
   model.forests.assign(1, grow_forest(bin_descriptors(descriptors, execution), targets, forest, execution));
 }
 
 // Places the landmarks of every shape by a model that has not seen it, and learns from the outcome how far to trust.
-Calibration cross_fit(const LandmarkModel& model, const TrainingSet& set, const std::vector<SurfaceAnalysis>& analyses,
-                      const std::vector<LearnedShape>& learned, const Execution& execution) {
+Calibration cross_fit(const LandmarkModel& model, const TrainingSet& set,
+                      const std::vector<SurfaceAnalysis>& analyses, const std::vector<LearnedShape>& learned,
+                      const Execution& execution) {
   const auto count = static_cast<int32_t>(set.shapes.size());
   const int32_t used_folds = std::min(folds, count);
   std::vector<JudgedPlacement> judged;
@@ -140,8 +148,8 @@ Calibration cross_fit(const LandmarkModel& model, const TrainingSet& set, const 
       StageSeconds ignored;
       const auto limit = static_cast<int32_t>(detect.sampling_rate * shape.mesh->surface.vertex_count());
       const Placement placement =
-          place_landmarks(part, *shape.mesh, analyses[order[i]], std::clamp(limit, 100, detect.max_samples), detect,
-                          execution, ignored);
+          place_landmarks(part, *shape.mesh, analyses[order[i]], std::clamp(limit, 100, detect.max_samples),
+                          detect, execution, ignored);
       for (size_t l = 0; l < shape.marks.size(); ++l) {
         if (!shape.marks[l] || placement.vertex[l] < 0) continue;
         const Vector3 placed = shape.mesh->surface.positions.row(placement.vertex[l]);
@@ -153,14 +161,17 @@ Calibration cross_fit(const LandmarkModel& model, const TrainingSet& set, const 
   return calibrate(judged, static_cast<int32_t>(model.landmark_names.size()));
 }
 
-std::vector<SurfaceAnalysis> analyse_all(const TrainingSet& set, const TrainParams& params, const Execution& execution) {
+std::vector<SurfaceAnalysis> analyse_all(const TrainingSet& set, const TrainParams& params,
+                                         const Execution& execution) {
   std::vector<SurfaceAnalysis> analyses(set.shapes.size());
   execution.begin_stage("analysis", 0, 0.4);
   std::atomic<int32_t> done{0};
   parallel_for(execution, static_cast<int64_t>(set.shapes.size()), [&](int64_t s) {
     analyses[s] = analyse_surface(*set.shapes[s].mesh,
-                                  {.eigenpair_count = params.eigenpair_count, .sampling_rate = params.sampling_rate,
-                                   .max_samples = params.max_samples_per_shape, .seed = params.seed,
+                                  {.eigenpair_count = params.eigenpair_count,
+                                   .sampling_rate = params.sampling_rate,
+                                   .max_samples = params.max_samples_per_shape,
+                                   .seed = params.seed,
                                    .stream = static_cast<uint64_t>(s)},
                                   execution.inner());
     execution.report(static_cast<double>(++done) / static_cast<double>(analyses.size()));
@@ -203,7 +214,8 @@ LandmarkModel train(const TrainingSet& set, const TrainParams& params, const Exe
 }
 
 ModelInfo info_of(const LandmarkModel& model) {
-  ModelInfo info{model.landmark_names, model.params, model.shape_count, model.mean_vertex_count, model.targets.rows(), 0};
+  ModelInfo info{model.landmark_names,    model.params,         model.shape_count,
+                 model.mean_vertex_count, model.targets.rows(), 0};
   for (const auto& forest : model.forests)
     for (const auto& tree : forest.trees) info.tree_node_count += static_cast<int64_t>(tree.feature.size());
   return info;

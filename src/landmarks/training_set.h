@@ -11,7 +11,8 @@ namespace focal {
 
 struct MarkedShape {
   std::shared_ptr<const PreparedMesh> mesh;
-  std::vector<std::optional<SurfacePoint>> marks;  // on mesh->surface; one a landmark name; empty: absent here
+  std::vector<std::optional<SurfacePoint>>
+      marks;  // on mesh->surface; one a landmark name; empty: absent here
 };
 
 struct TrainingSet {

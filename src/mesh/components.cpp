@@ -47,7 +47,8 @@ Components components_of(const TriangleMesh& mesh) {
   return result;
 }
 
-std::vector<std::pair<int32_t, int32_t>> bridge_pairs(const TriangleMesh& mesh, const Components& components) {
+std::vector<std::pair<int32_t, int32_t>> bridge_pairs(const TriangleMesh& mesh,
+                                                      const Components& components) {
   std::vector<std::pair<int32_t, int32_t>> bridges;
   if (components.count < 2) return bridges;
   std::vector<std::vector<int32_t>> parts(components.count);

@@ -16,7 +16,8 @@ class NearestVertex {
   std::pair<int32_t, double> nearest(const Vector3& query) const;
 
  private:
-  void search(int32_t begin, int32_t end, int axis, const Vector3& query, std::pair<int32_t, double>& best) const;
+  void search(int32_t begin, int32_t end, int axis, const Vector3& query,
+              std::pair<int32_t, double>& best) const;
   void build(int32_t begin, int32_t end, int axis);
   const MatrixX3* positions_;
   std::vector<int32_t> order_;

@@ -73,7 +73,8 @@ void build_surface(PreparedMesh& mesh, const std::vector<int32_t>& first, const 
       mesh.surface_vertex[v] = static_cast<int32_t>(mesh.source_vertex.size());
       mesh.source_vertex.push_back(v);
     }
-  for (int32_t v = 0; v < mesh.source.vertex_count(); ++v) mesh.surface_vertex[v] = mesh.surface_vertex[first[v]];
+  for (int32_t v = 0; v < mesh.source.vertex_count(); ++v)
+    mesh.surface_vertex[v] = mesh.surface_vertex[first[v]];
   mesh.surface.positions.resize(mesh.source_vertex.size(), 3);
   for (size_t v = 0; v < mesh.source_vertex.size(); ++v)
     mesh.surface.positions.row(v) = mesh.source.positions.row(mesh.source_vertex[v]);
@@ -91,7 +92,8 @@ void normalise(PreparedMesh& mesh) {
   mesh.centre = low + (high - low) / 2;
   const double size = (high - low).maxCoeff();
   if (!(size > 0) || !std::isfinite(size))
-    throw Error(Status::invalid_mesh, "the mesh has no extent", "all its vertices lie on one point, or overflow");
+    throw Error(Status::invalid_mesh, "the mesh has no extent",
+                "all its vertices lie on one point, or overflow");
   positions.rowwise() -= mesh.centre.transpose();
   positions /= size;  // first to size 1: areas of meshes of size 1e-30 or 1e30 stay in range
   const double area = surface_area(mesh.surface);

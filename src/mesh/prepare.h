@@ -10,24 +10,24 @@
 namespace focal {
 
 struct PrepareParams {
-  bool weld = true;              // merge vertices of exactly equal position
-  bool drop_degenerate = true;   // drop triangles with a repeated corner, and repeated triangles
-  bool bridge_components = true; // link the parts of a many-part character (see bridges)
+  bool weld = true;               // merge vertices of exactly equal position
+  bool drop_degenerate = true;    // drop triangles with a repeated corner, and repeated triangles
+  bool bridge_components = true;  // link the parts of a many-part character (see bridges)
 };
 
 struct PreparedMesh {
   TriangleMesh source;   // as the caller gave it, his numbers and units
   TriangleMesh surface;  // analysed surface: every vertex used by a triangle; centred, area 1
   double scale = 1;      // caller's units per surface unit = sqrt(area of the surface in caller's units)
-  Vector3 centre = Vector3::Zero();             // source position = centre + scale * surface position
-  std::vector<int32_t> surface_vertex;          // per source vertex: its surface vertex, or -1
-  std::vector<int32_t> source_vertex;           // per surface vertex: the first source vertex of it
-  std::vector<int32_t> surface_triangle;        // per source triangle: its surface triangle, or -1
-  std::vector<int32_t> source_triangle;         // per surface triangle: its source triangle
+  Vector3 centre = Vector3::Zero();       // source position = centre + scale * surface position
+  std::vector<int32_t> surface_vertex;    // per source vertex: its surface vertex, or -1
+  std::vector<int32_t> source_vertex;     // per surface vertex: the first source vertex of it
+  std::vector<int32_t> surface_triangle;  // per source triangle: its surface triangle, or -1
+  std::vector<int32_t> source_triangle;   // per surface triangle: its source triangle
   // Pairs of surface vertices that link otherwise unconnected parts (operators add an edge for each), so that
   // heat and distances reach eyes, teeth and armour.
   std::vector<std::pair<int32_t, int32_t>> bridges;
-  std::vector<std::string> warnings;            // plain sentences on what was found and done
+  std::vector<std::string> warnings;  // plain sentences on what was found and done
 };
 
 // Throws invalid_mesh (no triangles, index out of range, NaN or infinite position), mesh_too_small.

@@ -41,8 +41,7 @@ double mean_edge_length(const TriangleMesh& mesh) {
 Vector3 position_of(const TriangleMesh& mesh, const SurfacePoint& point) {
   Vector3 position = Vector3::Zero();
   for (int i = 0; i < 3; ++i)
-    position +=
-        point.barycentric[i] * mesh.positions.row(mesh.triangles(point.triangle, i)).transpose();
+    position += point.barycentric[i] * mesh.positions.row(mesh.triangles(point.triangle, i)).transpose();
   return position;
 }
 

@@ -10,10 +10,11 @@
 namespace focal {
 
 struct Operators {
-  SparseMatrix L;                // n x n cotangent Laplacian, positive semi-definite, rows sum to 0; no unit
-  Vector mass;                   // n, lumped (a third of the area round each vertex), > 0; unit area
-  Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> half_cotangent;  // m x 3: half the cotangent at corner i
-  Vector face_area;              // m
+  SparseMatrix L;  // n x n cotangent Laplacian, positive semi-definite, rows sum to 0; no unit
+  Vector mass;     // n, lumped (a third of the area round each vertex), > 0; unit area
+  Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>
+      half_cotangent;  // m x 3: half the cotangent at corner i
+  Vector face_area;    // m
   double area = 0, mean_edge = 0;
 };
 

@@ -4,8 +4,8 @@
 
 namespace focal {
 
-std::vector<std::vector<int32_t>> find_peaks(const RowMatrixf& votes, int32_t count, double separation, double floor,
-                                             const DistanceFields& fields) {
+std::vector<std::vector<int32_t>> find_peaks(const RowMatrixf& votes, int32_t count, double separation,
+                                             double floor, const DistanceFields& fields) {
   const auto landmarks = static_cast<int32_t>(votes.cols());
   constexpr float gone = -std::numeric_limits<float>::infinity();
   RowMatrixf left = votes.transpose();  // a landmark's votes side by side, emptied round each peak found

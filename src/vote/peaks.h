@@ -13,7 +13,7 @@ using DistanceFields = std::function<RowMatrixf(std::span<const int32_t> vertice
 
 // Up to `count` vertices a landmark, best first, each at least `separation` from the earlier ones and with a vote of at
 // least `floor` of the best. votes: vertices x landmarks.
-std::vector<std::vector<int32_t>> find_peaks(const RowMatrixf& votes, int32_t count, double separation, double floor,
-                                             const DistanceFields& fields);
+std::vector<std::vector<int32_t>> find_peaks(const RowMatrixf& votes, int32_t count, double separation,
+                                             double floor, const DistanceFields& fields);
 
 }  // namespace focal

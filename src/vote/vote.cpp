@@ -16,8 +16,8 @@ FOCAL_MULTIVERSION(void add_interpolated(float* votes, const float* low, const f
 
 }  // namespace
 
-void add_distribution_votes(const VoteTables& tables, const float* distances, int32_t count, RowMatrixf& votes,
-                            const Execution& execution) {
+void add_distribution_votes(const VoteTables& tables, const float* distances, int32_t count,
+                            RowMatrixf& votes, const Execution& execution) {
   const auto inverse_width = static_cast<float>(1 / tables.bin_width);
   const auto last = static_cast<float>(tables.bins - 1);
   parallel_for_ranges(execution, votes.rows(), 512, [&](int64_t begin, int64_t end) {
@@ -26,7 +26,8 @@ void add_distribution_votes(const VoteTables& tables, const float* distances, in
         const float at = std::clamp(distances[v * lanes + j] * inverse_width - 0.5f, 0.0f, last);
         const auto bin = std::min(static_cast<int32_t>(at), tables.bins - 2);
         const float* low = tables.of(j) + static_cast<int64_t>(bin) * tables.landmarks;
-        add_interpolated(&votes(v, 0), low, low + tables.landmarks, at - static_cast<float>(bin), tables.landmarks);
+        add_interpolated(&votes(v, 0), low, low + tables.landmarks, at - static_cast<float>(bin),
+                         tables.landmarks);
       }
   });
 }

@@ -14,14 +14,14 @@ namespace focal {
 // The tables of one block of samples: weight of a distance, interpolated between evenly spaced bin centres.
 struct VoteTables {
   int32_t bins = 0, landmarks = 0;
-  double bin_width = 0;              // distance a bin, same unit as the distances
-  std::vector<float> weight;         // [sample][bin][landmark]
+  double bin_width = 0;       // distance a bin, same unit as the distances
+  std::vector<float> weight;  // [sample][bin][landmark]
   const float* of(int64_t sample) const { return &weight[sample * bins * landmarks]; }
 };
 
 // votes(v, l) += tables of sample j at distances[v * 32 + j], for j < count. Rows are shared out over threads.
-void add_distribution_votes(const VoteTables& tables, const float* distances, int32_t count, RowMatrixf& votes,
-                            const Execution& execution);
+void add_distribution_votes(const VoteTables& tables, const float* distances, int32_t count,
+                            RowMatrixf& votes, const Execution& execution);
 
 // `paper` (Xia et al. 2016, Section 4.4): every edge crossed by the isoline of sample j at radius(j, l) gives
 // exp(-mu radius^2) to both its ends. distances as above, radii: count x landmarks in the same unit; edges: e x 2.
