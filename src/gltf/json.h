@@ -14,7 +14,7 @@ namespace focal {
 
 struct JsonLimits {
   int32_t depth = 64;
-  int64_t values = 8'000'000;
+  int64_t values = 4'000'000;
 };
 
 template <class Json>

@@ -54,51 +54,59 @@ void require(bool within, const char* what, int64_t limit) {
                 "decimate the model or raise the limit");
 }
 
-// Lists what is to be read and where it goes, and checks the totals before any memory is taken.
-std::vector<Part> plan(const json& root, const std::vector<MeshPlacement>& placements,
-                       const GltfLimits& limits, std::vector<std::string>& warnings) {
-  std::vector<Part> parts;
-  const int64_t most_vertices = std::min<int64_t>(limits.vertices, std::numeric_limits<int32_t>::max());
-  const int64_t most_triangles = std::min<int64_t>(limits.triangles, std::numeric_limits<int32_t>::max());
-  int64_t vertices = 0, triangles = 0, skipped = 0;
-  for (const MeshPlacement& placement : placements) {
-    const json& primitives = list(root, "meshes")[static_cast<size_t>(placement.mesh)]["primitives"];
+// What is to be read and where it goes, from the JSON alone, so that the totals are checked before memory is taken.
+class Plan {
+ public:
+  Plan(const json& root, const GltfLimits& limits)
+      : root_(root),
+        most_vertices_(std::min<int64_t>(limits.vertices, std::numeric_limits<int32_t>::max())),
+        most_triangles_(std::min<int64_t>(limits.triangles, std::numeric_limits<int32_t>::max())) {}
+
+  void add(const MeshPlacement& placement) {
+    const json& primitives = list(root_, "meshes")[static_cast<size_t>(placement.mesh)]["primitives"];
     for (size_t p = 0; p < primitives.size(); ++p) {
-      const json& primitive = primitives[p];
-      const int64_t mode = integer(primitive, "mode", {"meshes", placement.mesh}, 0, 6, kTriangles);
-      const json* positions = member(primitive["attributes"], "POSITION");
-      if (mode < kTriangles || !positions) {
-        ++skipped;
-        continue;
-      }
-      refuse_draco(root, primitive, positions->get<int64_t>());
-      Part part{&primitive, mode, 0, {}};
-      const int64_t vertex_count = accessor_count(root, positions->get<int64_t>());
-      const json* indices = member(primitive, "indices");
-      part.corners = indices ? accessor_count(root, indices->get<int64_t>()) : vertex_count;
-      const int64_t triangle_count =
-          mode == kTriangles ? part.corners / 3 : std::max<int64_t>(part.corners - 2, 0);
-      require(vertex_count <= most_vertices - vertices, "vertices", most_vertices);
-      require(triangle_count <= most_triangles - triangles, "triangles", most_triangles);
-      part.range = {.mesh = placement.mesh,
-                    .primitive = static_cast<int32_t>(p),
-                    .node = placement.node,
-                    .first_vertex = static_cast<int32_t>(vertices),
-                    .vertex_count = static_cast<int32_t>(vertex_count),
-                    .first_triangle = static_cast<int32_t>(triangles),
-                    .triangle_count = static_cast<int32_t>(triangle_count),
-                    .world_transform = placement.world_transform,
-                    .mirrored = placement.world_transform.topLeftCorner<3, 3>().determinant() < 0};
-      vertices += vertex_count;
-      triangles += triangle_count;
-      parts.push_back(part);
+      const int64_t mode = integer(primitives[p], "mode", {"meshes", placement.mesh}, 0, 6, kTriangles);
+      const bool is_surface = mode >= kTriangles && member(primitives[p]["attributes"], "POSITION");
+      if (is_surface)
+        add(placement, primitives[p], static_cast<int32_t>(p), mode);
+      else
+        ++skipped_;
     }
   }
-  if (skipped > 0)
-    warnings.push_back(std::to_string(skipped) +
-                       " primitives of points or lines, or without positions, were skipped");
-  return parts;
-}
+  const std::vector<Part>& parts() const { return parts_; }
+  int64_t vertices() const { return vertices_; }
+  int64_t triangles() const { return triangles_; }
+  int64_t skipped() const { return skipped_; }
+
+ private:
+  void add(const MeshPlacement& placement, const json& primitive, int32_t index, int64_t mode) {
+    const auto positions = primitive["attributes"]["POSITION"].get<int64_t>();
+    refuse_draco(root_, primitive, positions);
+    const int64_t vertex_count = accessor_count(root_, positions);
+    const json* indices = member(primitive, "indices");
+    const int64_t corners = indices ? accessor_count(root_, indices->get<int64_t>()) : vertex_count;
+    const int64_t triangle_count = mode == kTriangles ? corners / 3 : std::max<int64_t>(corners - 2, 0);
+    require(vertex_count <= most_vertices_ - vertices_, "vertices", most_vertices_);
+    require(triangle_count <= most_triangles_ - triangles_, "triangles", most_triangles_);
+    const GltfPrimitive range{.mesh = placement.mesh,
+                              .primitive = index,
+                              .node = placement.node,
+                              .first_vertex = static_cast<int32_t>(vertices_),
+                              .vertex_count = static_cast<int32_t>(vertex_count),
+                              .first_triangle = static_cast<int32_t>(triangles_),
+                              .triangle_count = static_cast<int32_t>(triangle_count),
+                              .world_transform = placement.world_transform,
+                              .mirrored = placement.world_transform.topLeftCorner<3, 3>().determinant() < 0};
+    parts_.push_back({&primitive, mode, corners, range});
+    vertices_ += vertex_count;
+    triangles_ += triangle_count;
+  }
+
+  const json& root_;
+  int64_t most_vertices_, most_triangles_;
+  int64_t vertices_ = 0, triangles_ = 0, skipped_ = 0;
+  std::vector<Part> parts_;
+};
 
 void read_positions(const json& root, GltfBuffers& buffers, const Part& part, MatrixX3& positions) {
   const RowMatrix local =
@@ -145,11 +153,14 @@ GltfMesh read(std::span<const std::byte> bytes, const GltfLimits& limits,
   const json& root = document.root();
   GltfBuffers buffers(root, container, limits, std::move(folder));
   GltfMesh result;
-  const auto parts = plan(root, placed_meshes(root, buffers, result.warnings), limits, result.warnings);
-  const GltfPrimitive last = parts.empty() ? GltfPrimitive{} : parts.back().range;
-  result.mesh.positions.resize(last.first_vertex + last.vertex_count, 3);
-  result.mesh.triangles.resize(last.first_triangle + last.triangle_count, 3);
-  for (const Part& part : parts) {
+  Plan plan(root, limits);
+  for (const MeshPlacement& placement : placed_meshes(root, buffers, result.warnings)) plan.add(placement);
+  if (plan.skipped() > 0)
+    result.warnings.push_back(std::to_string(plan.skipped()) +
+                              " primitives of points or lines, or without positions, were skipped");
+  result.mesh.positions.resize(plan.vertices(), 3);
+  result.mesh.triangles.resize(plan.triangles(), 3);
+  for (const Part& part : plan.parts()) {
     if (part.mode == kTriangles && part.corners % 3 != 0)
       result.warnings.push_back(name_of(part.range.mesh, part.range.primitive) +
                                 ": the number of corners is no multiple of three; the rest was left out");
