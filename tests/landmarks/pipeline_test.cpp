@@ -1,0 +1,190 @@
+// Training and detection as a whole on sample characters: right places on bodies never seen, the same bits for any
+// number of threads, cancelled at once, honest about what is missing.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+#include "base/error.h"
+#include "creatures/character.h"
+#include "landmarks/detect.h"
+#include "landmarks/model_file.h"
+#include "landmarks/model_parts.h"
+#include "landmarks/train.h"
+
+using namespace focal;
+
+namespace {
+
+TriangleMesh posed_mesh(const creatures::Character& character) {
+  TriangleMesh mesh;
+  mesh.positions.resize(character.posed.size(), 3);
+  for (size_t v = 0; v < character.posed.size(); ++v) mesh.positions.row(v) = character.posed[v];
+  mesh.triangles.resize(character.rest.triangles.size(), 3);
+  for (size_t t = 0; t < character.rest.triangles.size(); ++t)
+    for (int i = 0; i < 3; ++i) mesh.triangles(t, i) = character.rest.triangles[t][i];
+  return mesh;
+}
+
+MarkedShape marked(const creatures::Character& character) {
+  MarkedShape shape{std::make_shared<PreparedMesh>(prepare(posed_mesh(character))), {}};
+  for (const auto& mark : character.landmarks)
+    shape.marks.push_back(to_surface(*shape.mesh, {mark.triangle, mark.barycentric}));
+  return shape;
+}
+
+creatures::Character humanoid(uint64_t seed) {
+  return creatures::make_character(creatures::families()[0], "humanoid", seed);
+}
+
+// Six humanoids, made once.
+const TrainingSet& training_set() {
+  static const TrainingSet set = [] {
+    TrainingSet made;
+    for (const auto& mark : humanoid(100).landmarks) made.landmark_names.push_back(mark.name);
+    for (uint64_t seed = 100; seed < 106; ++seed) made.shapes.push_back(marked(humanoid(seed)));
+    return made;
+  }();
+  return set;
+}
+
+// Small enough for a sanitizer, large enough to find every landmark.
+TrainParams small_params(Preset preset = Preset::default_preset) {
+  TrainParams params = TrainParams::from_preset(preset);
+  params.eigenpair_count = 100;
+  params.sampling_rate = 0.25;
+  params.tree_count = 10;
+  return params;
+}
+
+Execution threads(int count) { return {.thread_count = count, .task = nullptr, .host_parallel_for = {}}; }
+
+std::shared_ptr<const LandmarkModel> shared_model(const TrainingSet& set, const TrainParams& params,
+                                                  int thread_count) {
+  return std::make_shared<LandmarkModel>(train(set, params, threads(thread_count)));
+}
+
+const std::shared_ptr<const LandmarkModel>& small_model() {
+  static const auto model = shared_model(training_set(), small_params(), 2);
+  return model;
+}
+
+std::vector<double> errors_in_edges(const Detection& detection, const MarkedShape& shape) {
+  const double edge = mean_edge_length(detection.mesh->source);
+  std::vector<double> errors;
+  for (size_t l = 0; l < shape.marks.size(); ++l) {
+    const Vector3 truth = position_of(detection.mesh->source, to_source(*shape.mesh, *shape.marks[l]));
+    errors.push_back((detection.landmarks[l].position - truth).norm() / edge);
+  }
+  return errors;
+}
+
+bool same(const Detection& a, const Detection& b) {
+  for (size_t l = 0; l < a.landmarks.size(); ++l)
+    if (a.landmarks[l].position != b.landmarks[l].position ||
+        a.landmarks[l].confidence != b.landmarks[l].confidence)
+      return false;
+  return a.votes == b.votes && a.category_fit == b.category_fit;
+}
+
+}  // namespace
+
+TEST_CASE("landmarks are found on a body never seen") {
+  const MarkedShape unseen = marked(humanoid(200));
+  const Detection detection = detect(small_model(), unseen.mesh, {}, threads(2));
+  REQUIRE(detection.landmarks.size() == unseen.marks.size());
+  double sum = 0;
+  for (const double error : errors_in_edges(detection, unseen)) {
+    CHECK(error < 10);  // a flip or a wrong limb is further
+    sum += error;
+  }
+  CHECK(sum / static_cast<double>(unseen.marks.size()) < 3);
+  CHECK(detection.category_fit > 0.5);
+  CHECK(detection.votes.rows() == static_cast<Eigen::Index>(unseen.marks.size()));
+  CHECK(detection.votes.rowwise().maxCoeff().isOnes());
+  for (const auto& landmark : detection.landmarks) {
+    CHECK(landmark.confidence >= 0);
+    CHECK(landmark.confidence <= 1);
+    CHECK(landmark.expected_error > 0);
+    const Vector3 on_triangle = position_of(unseen.mesh->source, landmark.source_point);
+    CHECK((on_triangle - landmark.position).norm() < 1e-9);
+  }
+}
+
+TEST_CASE("preset paper trains and votes on every landmark") {
+  const auto model = shared_model(training_set(), small_params(Preset::paper), 2);
+  CHECK(model->forests.size() == training_set().landmark_names.size());
+  const MarkedShape& seen = training_set().shapes[0];
+  const auto errors = errors_in_edges(detect(model, seen.mesh, {}, threads(2)), seen);
+  std::vector<double> sorted = errors;
+  std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
+  CHECK(sorted[sorted.size() / 2] < 15);  // the paper's own method: right region, on a shape it has learned
+}
+
+TEST_CASE("the same bits for one, two and four threads, and from run to run") {
+  const auto one = shared_model(training_set(), small_params(), 1);
+  CHECK(serialise(*one) == serialise(*small_model()));
+  const auto mesh = std::make_shared<PreparedMesh>(prepare(posed_mesh(humanoid(201))));
+  const Detection reference = detect(one, mesh, {}, threads(1));
+  CHECK(same(reference, detect(one, mesh, {}, threads(2))));
+  CHECK(same(reference, detect(one, mesh, {}, threads(4))));
+  CHECK(same(reference, detect(small_model(), mesh, {}, threads(1))));
+}
+
+TEST_CASE("a model from its file detects like the one that was saved") {
+  const auto mesh = std::make_shared<PreparedMesh>(prepare(posed_mesh(humanoid(202))));
+  const auto loaded = std::make_shared<LandmarkModel>(parse_model(serialise(*small_model())));
+  CHECK(same(detect(small_model(), mesh, {}, threads(2)), detect(loaded, mesh, {}, threads(2))));
+}
+
+TEST_CASE("scale and rigid motion change nothing but the coordinates") {
+  TriangleMesh moved = posed_mesh(humanoid(203));
+  const auto original = std::make_shared<PreparedMesh>(prepare(moved));
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(1.1, Vector3(1, 2, 3).normalized()).toRotationMatrix();
+  for (Eigen::Index v = 0; v < moved.positions.rows(); ++v)
+    moved.positions.row(v) =
+        (1e6 * turn * moved.positions.row(v).transpose() + Vector3(3e5, 0, -1e5)).transpose();
+  const auto other = std::make_shared<PreparedMesh>(prepare(std::move(moved)));
+  const Detection a = detect(small_model(), original, {}, threads(2)),
+                  b = detect(small_model(), other, {}, threads(2));
+  for (size_t l = 0; l < a.landmarks.size(); ++l)
+    CHECK(a.landmarks[l].source_vertex == b.landmarks[l].source_vertex);
+}
+
+TEST_CASE("a landmark may be absent on some shapes, not on all but one") {
+  TrainingSet set = training_set();
+  set.shapes[0].marks[1].reset();
+  set.shapes[1].marks[0].reset();
+  CHECK_NOTHROW(train(set, small_params(), threads(2)));
+  for (size_t s = 0; s + 1 < set.shapes.size(); ++s) set.shapes[s].marks[2].reset();
+  CHECK_THROWS_WITH(train(set, small_params(), threads(2)),
+                    doctest::Contains((set.landmark_names[2] + "' is marked on 1 mesh").c_str()));
+  set.shapes.resize(1);
+  try {
+    train(set, small_params(), threads(2));
+    FAIL("one mesh is too few");
+  } catch (const Error& error) {
+    CHECK(error.status() == Status::too_few_shapes);
+    CHECK(!error.hint().empty());
+  }
+}
+
+TEST_CASE("a cancelled training stops") {
+  for (const int milliseconds : {0, 100, 700}) {
+    Task task;
+    Execution execution = threads(2);
+    execution.task = &task;
+    std::thread canceller([&] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+      task.cancel();
+    });
+    try {
+      train(training_set(), small_params(), execution);
+      CHECK(milliseconds > 0);  // may be done by then on a very fast machine
+    } catch (const Error& error) {
+      CHECK(error.status() == Status::cancelled);
+    }
+    canceller.join();
+  }
+}
