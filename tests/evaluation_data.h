@@ -1,5 +1,5 @@
-// The evaluation sets (one-primitive .glb files with marked landmarks) as test input, found through the environment
-// variable FOCAL_EVALUATION_DATA. Their layout is fixed, so a small trusting reader does.
+// The evaluation sets (one-primitive .glb files with marked landmarks) as test input, found through the
+// environment variable FOCAL_EVALUATION_DATA. Their layout is fixed, so a small trusting reader does.
 #pragma once
 #include <cstdint>
 #include <cstdlib>

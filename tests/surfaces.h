@@ -39,7 +39,7 @@ inline focal::TriangleMesh sphere(int levels) {
   return mesh;
 }
 
-// The square [-1, 1]^2 in z = 0, (2 * half + 1)^2 vertices, the inner ones moved by up to `jitter` of the spacing.
+// The square [-1, 1]^2 in z = 0, (2 * half + 1)^2 vertices, inner ones moved by up to jitter spacings.
 inline focal::TriangleMesh square(int half, double jitter = 0, uint64_t seed = 1) {
   const int side = 2 * half + 1;
   focal::Random random(seed);

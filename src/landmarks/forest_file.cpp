@@ -1,5 +1,6 @@
-// A forest as bytes. A binary tree in breadth-first order is told by one bit a node (G. Jacobson, "Space-efficient
-// Static Trees and Graphs", 1989): the k-th inner node has its children at 2k + 1 and 2k + 2.
+// A forest as bytes. A binary tree in breadth-first order is told by one bit a node (G. Jacobson,
+// "Space-efficient Static Trees and Graphs", 1989): the children of its k-th inner node are nodes 2k + 1 and
+// 2k + 2.
 #include "landmarks/forest_file.h"
 
 #include <algorithm>

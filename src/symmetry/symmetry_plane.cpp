@@ -1,7 +1,8 @@
-// Pairs of points that look alike vote for the plane between them; the planes the surface agrees with best win.
+// Pairs of points that look alike vote for the plane between them; the plane the surface agrees with most wins.
 // N. J. Mitra, L. J. Guibas, M. Pauly, "Partial and Approximate Symmetry Detection for 3D Geometry", 2006.
 // Their principal curvatures are replaced by moments of the surface in balls, which tell the same without
-// differentiating a noisy mesh (H. Pottmann et al., "Principal curvatures from the integral invariant viewpoint", 2007).
+// differentiating a noisy mesh: H. Pottmann et al., "Principal curvatures from the integral invariant
+// viewpoint", 2007.
 #include "symmetry/symmetry_plane.h"
 
 #include <Eigen/Eigenvalues>
@@ -143,8 +144,8 @@ Probes describe(const Cloud& cloud, const Execution& execution) {
   return probes;
 }
 
-// The vote of the pair (p, q) for the plane half-way between them; weight 0 when the plane does not also map normal
-// to normal and lean to lean.
+// The vote of the pair (p, q) for the plane half-way between them; weight 0 when the plane does not also map
+// normal to normal and lean to lean.
 Vote pair_vote(const Cloud& cloud, const Probes& probes, int32_t p, int32_t q, double signature_distance) {
   const Vector3 a = cloud.points.row(probes.cloud_index[p]), b = cloud.points.row(probes.cloud_index[q]);
   const double distance = (a - b).norm();
@@ -210,7 +211,8 @@ Plane shift_to_mean(const std::vector<Vote>& votes, const Plane& at, double& den
   return {normal.normalized(), offset / density};
 }
 
-// Modes of the votes' density in the space of planes, the strongest first (mean shift of Mitra et al., Section 4).
+// Modes of the votes' density in the space of planes, the strongest first (mean shift of Mitra et al.,
+// Section 4).
 std::vector<Plane> find_modes(const std::vector<Vote>& votes, const Execution& execution) {
   std::vector<double> density(votes.size());
   parallel_for_ranges(execution, static_cast<int64_t>(votes.size()), 64, [&](int64_t begin, int64_t end) {
@@ -282,8 +284,9 @@ double score(const Reflector& reflector, const Plane& plane, double tolerance, i
   return sum / std::max(count, 1);
 }
 
-// One step of the plane's ICP: the plane that reflects the probes best, in the weighted least-squares sense, onto
-// their answers: offset through the mean midpoint, normal the eigenvector of sum w p q^T of smallest eigenvalue.
+// One step of the plane's ICP: the plane that reflects the probes best, in the weighted least-squares sense,
+// onto their answers: offset through the mean midpoint, normal the eigenvector of sum w p q^T of smallest
+// eigenvalue.
 Plane refine_step(const Reflector& reflector, const Plane& plane, double tolerance, int32_t stride) {
   std::vector<std::pair<Vector3, Vector3>> pairs;
   std::vector<double> weights;

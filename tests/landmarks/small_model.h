@@ -1,5 +1,6 @@
-// A small model written out by hand, of numbers that are the same on every machine: what the golden files hold.
-// Never change it: older files are read for ever. A new format version gets new golden files beside the old ones.
+// A small model written out by hand, of numbers that are the same on every machine: what the golden files
+// hold. Never change it: older files are read for ever. A new format version gets new golden files beside the
+// old ones.
 #pragma once
 #include "landmarks/model_parts.h"
 

@@ -1,4 +1,4 @@
-// The operators as identities: what they must be for any mesh, and what they are on surfaces known by formula.
+// The operators as identities: what they are on any mesh, and on surfaces known by formula.
 #include "operators/operators.h"
 
 #include <doctest/doctest.h>

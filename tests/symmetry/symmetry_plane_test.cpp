@@ -42,7 +42,7 @@ double angle_in_degrees(const Vector3& a, const Vector3& b) {
   return std::asin(std::min(1.0, a.cross(b).norm())) * 180 / std::numbers::pi;
 }
 
-// Fraction of the mirror pairs that the plane separates, the same way round for all: what the descriptors need.
+// Fraction of the mirror pairs that the plane separates, the same way round for all.
 double fraction_separated(const SymmetryPlane& plane, const TriangleMesh& mesh, const nlohmann::json& mirror,
                           const std::map<std::string, int32_t>& marks) {
   const auto side = [&](const std::string& name) {
@@ -114,7 +114,7 @@ TEST_CASE("a surface without area or with few triangles does not trip it") {
 }
 
 TEST_CASE("real shapes: the plane separates left marks from right ones") {
-  // Floors well under what was measured (0.97, 1.00, 0.79, 0.77, 0.56): posed teddies and lions bend out of any plane.
+  // Floors well under what was measured (0.97, 1.00, 0.79, 0.77, 0.56): posed shapes bend out of any plane.
   const std::pair<const char*, double> sets[] = {
       {"faust5k", 0.92}, {"ant", 0.95}, {"scape", 0.7}, {"lion", 0.65}, {"teddy", 0.4}};
   for (const auto& [name, floor] : sets) {
