@@ -1,4 +1,4 @@
-// Pairs of points that look alike vote for the plane between them; the plane the surface agrees with most wins.
+// Pairs of points that look alike vote for the plane between them; the one the surface agrees with most wins.
 // N. J. Mitra, L. J. Guibas, M. Pauly, "Partial and Approximate Symmetry Detection for 3D Geometry", 2006.
 // Their principal curvatures are replaced by moments of the surface in balls, which tell the same without
 // differentiating a noisy mesh: H. Pottmann et al., "Principal curvatures from the integral invariant
