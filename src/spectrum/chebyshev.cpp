@@ -17,6 +17,7 @@ namespace {
 
 constexpr int lanes = Columns::lanes;
 constexpr int max_rounds = 40, min_degree = 3, max_degree = 12;
+constexpr double shift_over_last = 0.5;  // of the last column's eigenvalue: quick rounds without loss of rank
 
 // A + shift I, factored; A in the order of the factor, which does not depend on the shift.
 struct ShiftedFactor {
@@ -109,6 +110,28 @@ double norm_bound(const SparseMatrix& A) {
   return largest;
 }
 
+// The first shift follows Weyl's law, but needles have eigenvalues far above it, and a surface in many parts has many
+// near zero: a shift far too small drowns the last columns in rounding noise, one far too large cannot tell them apart.
+void follow_spectrum(std::optional<ShiftedFactor>& factor, const StandardProblem& problem, double last) {
+  const double shift = std::max(shift_over_last * last, 1e-2 * problem.scale);
+  if (shift > 5 * factor->shift || 5 * shift < factor->shift) factor.emplace(problem.A, shift);
+}
+
+// Largest |A x - lambda x| / lambda of the wanted pairs. The zero eigenvalue is weighed against a thousandth of the
+// shift; and no residual can be smaller than the rounding of A x, which on slivers is all there is to reach.
+class Convergence {
+ public:
+  Convergence(const SparseMatrix& A, double tolerance)
+      : tolerance_(tolerance), rounding_(30 * std::numeric_limits<double>::epsilon() * norm_bound(A)) {}
+  double residual(const Vector& norms, const Vector& lambda, double shift, int count) const {
+    const auto size = lambda.array().max(1e-3 * shift) + rounding_ / tolerance_;
+    return (norms.array() / size).head(count).maxCoeff();
+  }
+
+ private:
+  double tolerance_, rounding_;
+};
+
 }  // namespace
 
 Eigenbasis chebyshev_eigenpairs(const StandardProblem& problem, const Execution& execution) {
@@ -118,25 +141,25 @@ Eigenbasis chebyshev_eigenpairs(const StandardProblem& problem, const Execution&
   const int blocks = (count + count / 5 + 16 + lanes - 1) / lanes;
   const double columns_per_wanted = static_cast<double>(blocks * lanes) / count;
   Bounds bounds{10 * problem.scale, 10 * problem.scale * columns_per_wanted};
-  std::optional<ShiftedFactor> factor(std::in_place, problem.A, 0.3 * bounds.last);
+  std::optional<ShiftedFactor> factor(std::in_place, problem.A, shift_over_last * bounds.last);
   const Columns X = random_columns(n, blocks, execution);
-  // No residual can be smaller than the rounding of A x: on slivers, that is all there is to reach.
-  const double rounding = 30 * std::numeric_limits<double>::epsilon() * norm_bound(problem.A);
+  const Convergence convergence(problem.A, problem.tolerance);
   Vector lambda;
   double residual = 1;
   for (int round = 0; !(residual <= problem.tolerance); ++round) {
     if (round == max_rounds || !std::isfinite(residual))
       throw Error(Status::not_converged, "the eigenvalues of the surface did not converge",
                   "ask for fewer eigenpairs, or repair the mesh first");
+    if (round > 1) follow_spectrum(factor, problem, lambda(lambda.size() - 1));
     apply(choose_filter(round, bounds, factor->shift, residual / problem.tolerance), factor->cholesky, X,
           execution);
     lambda = rayleigh_ritz(factor->A, X, execution);
     const Vector norms = residual_norms(factor->A, X, lambda, execution);
-    residual =
-        (norms.array() / (lambda.array().max(0) + rounding / problem.tolerance)).head(count).maxCoeff();
+    residual = convergence.residual(norms, lambda, factor->shift, count);
     bounds.wanted = lambda(count - 1);
-    // Early on the last columns hold little but noise.
+    // Early on the last columns hold little but noise; and many separate parts have many zero eigenvalues.
     bounds.last = std::min(lambda(lambda.size() - 1), 1.05 * columns_per_wanted * bounds.wanted);
+    bounds.last = std::max(bounds.last, factor->shift);
     execution.report(1 - std::pow(0.5, round + 1));
   }
   Eigenbasis basis{lambda.head(count), Matrix(n, count)};
