@@ -70,11 +70,11 @@ void add_eval(CLI::App& app) {
       ->capture_default_str();
   verb->add_option("--limit", options->limit, "Only the first N meshes")
       ->type_name("N")
-      ->check(CLI::PositiveNumber.description(""));
+      ->check(CLI::Range(1, 1000000000).description(""));
   verb->add_option("--subset", options->subset, "Count only these landmarks")
       ->type_name("NAME,NAME,...")
       ->delimiter(',')
-      ->expected(1);
+      ->allow_extra_args(false);
   add_quality_option(*verb, options->quality);
   add_common_options(*verb, *options);
   verb->callback([options] { evaluate(*options); });

@@ -2,29 +2,39 @@
 #include "options.h"
 
 #include <iostream>
-#include <map>
 
 namespace focal_cli {
 
+void add_choice(CLI::App& verb, const std::string& name, int32_t& value, const std::string& help,
+                const std::string& words, const std::map<std::string, int32_t>& choices) {
+  const auto number_of_word = [choices, words](std::string& word) {
+    const auto choice = choices.find(word);
+    if (choice == choices.end()) return "'" + word + "' is not one of " + words;
+    word = std::to_string(choice->second);
+    return std::string();
+  };
+  verb.add_option(name, value, help)->type_name(words)->transform(CLI::Validator(number_of_word, ""));
+}
+
 void add_common_options(CLI::App& verb, CommonOptions& options) {
-  static const std::map<std::string, focal_backend> backends = {
-      {"auto", FOCAL_BACKEND_AUTO}, {"cpu", FOCAL_BACKEND_CPU}, {"cuda", FOCAL_BACKEND_CUDA}};
-  constexpr const char* group = "Common";
-  verb.add_flag("--json", options.json, "Print one JSON document on stdout, nothing else")->group(group);
+  // The parser alone would turn -3 into a large seed without a word.
+  const auto unsigned_only = [](std::string& text) {
+    return text.starts_with('-') ? "'" + text + "' is negative" : std::string();
+  };
+  verb.add_flag("--json", options.json, "Print one JSON document on stdout, nothing else")->group("Common");
   verb.add_flag("--quiet", options.quiet, "Print nothing but errors (and the JSON, if asked for)")
-      ->group(group);
+      ->group("Common");
   verb.add_option("--threads", options.threads, "Threads to use; 0: one a core")
       ->type_name("N")
-      ->check(CLI::Range(0, 1024))
-      ->group(group);
-  verb.add_option("--backend", options.backend, "Where to compute")
-      ->type_name("auto|cpu|cuda")
-      ->transform(CLI::Transformer(backends, CLI::ignore_case).description(""))
-      ->check(CLI::IsMember(std::set<focal_backend>{0, 1, 2}).description(""))
-      ->group(group);
+      ->check(CLI::Range(0, 1024).description(""))
+      ->group("Common");
+  add_choice(verb, "--backend", options.backend, "Where to compute", "auto|cpu|cuda",
+             {{"auto", FOCAL_BACKEND_AUTO}, {"cpu", FOCAL_BACKEND_CPU}, {"cuda", FOCAL_BACKEND_CUDA}});
+  verb.get_option("--backend")->group("Common");
   verb.add_option("--seed", options.seed, "Of all random choices: same seed, same result")
       ->type_name("N")
-      ->group(group);
+      ->check(CLI::Validator(unsigned_only, ""))
+      ->group("Common");
 }
 
 Context make_context(const CommonOptions& options) {

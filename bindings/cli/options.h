@@ -2,6 +2,7 @@
 #pragma once
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -18,6 +19,10 @@ struct CommonOptions {
 
   bool prints_text() const { return !json && !quiet; }
 };
+
+// An option of a few words, each standing for a number of focal.h.
+void add_choice(CLI::App& verb, const std::string& name, int32_t& value, const std::string& help,
+                const std::string& words, const std::map<std::string, int32_t>& choices);
 
 void add_common_options(CLI::App& verb, CommonOptions& options);
 

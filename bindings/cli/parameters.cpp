@@ -2,27 +2,15 @@
 #include "parameters.h"
 
 namespace focal_cli {
-namespace {
-
-// An option of a few words, each standing for a number of focal.h.
-void add_choice(CLI::App& verb, const std::string& name, int32_t& value, const std::string& help,
-                const std::string& words, const std::map<std::string, int32_t>& choices) {
-  verb.add_option(name, value, help)
-      ->type_name(words)
-      ->transform(CLI::CheckedTransformer(choices).description(""));
-}
-
-}  // namespace
-
 void add_train_options(CLI::App& verb, TrainOptions& options) {
   add_choice(verb, "--preset", options.preset, "default: measures best; paper: Xia et al. 2016 to the letter",
              "default|paper", {{"default", FOCAL_PRESET_DEFAULT}, {"paper", FOCAL_PRESET_PAPER}});
   verb.add_option("--trees", options.trees, "Trees in each forest")
       ->type_name("N")
-      ->check(CLI::Range(1, 10000));
+      ->check(CLI::Range(1, 10000).description(""));
   verb.add_option("--eigenpairs", options.eigenpairs, "Eigenpairs of the Laplacian")
       ->type_name("N")
-      ->check(CLI::Range(8, 2000));
+      ->check(CLI::Range(8, 2000).description(""));
   verb.add_option("--sampling-rate", options.sampling_rate,
                   "Share of each mesh's vertices that is learned from")
       ->type_name("X")

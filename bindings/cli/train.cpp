@@ -82,7 +82,7 @@ void add_train(CLI::App& app) {
       ->capture_default_str();
   verb->add_option("--limit", options->limit, "Only the first N meshes")
       ->type_name("N")
-      ->check(CLI::PositiveNumber.description(""));
+      ->check(CLI::Range(1, 1000000000).description(""));
   add_train_options(*verb, *options);
   add_common_options(*verb, *options);
   verb->callback([options] { train(*options); });

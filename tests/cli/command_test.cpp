@@ -1,0 +1,289 @@
+// The built command from outside: exit status, the keys of every JSON document, what bad input is answered with.
+#include <doctest/doctest.h>
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "files.h"
+#include "landmark_files.h"
+#include "scratch_folder.h"
+#include "tiny_set.h"
+
+namespace {
+
+using nlohmann::json;
+using Keys = std::set<std::string>;
+
+struct Run {
+  int status = -1;
+  std::string out, err;
+};
+
+// before: a program that runs the command, such as timeout.
+Run focal(const std::string& arguments, const std::string& before = "") {
+  const ScratchFolder scratch;
+  const std::string line =
+      before + " \"" FOCAL_COMMAND "\" " + arguments + " 2> '" + (scratch / "stderr") + "'";
+  std::FILE* pipe = ::popen(line.c_str(), "r");
+  REQUIRE(pipe);
+  Run run;
+  char block[4096];
+  for (size_t size; (size = std::fread(block, 1, sizeof block, pipe)) > 0;) run.out.append(block, size);
+  const int status = ::pclose(pipe);
+  run.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128;
+  run.err = focal_cli::read_text_file(scratch / "stderr");
+  return run;
+}
+
+Keys keys_of(const json& object) {
+  Keys keys;
+  for (const auto& [key, value] : object.items()) keys.insert(key);
+  return keys;
+}
+
+// Runs with --json: done, one document on stdout, nothing on stderr.
+json focal_json(const std::string& arguments) {
+  const Run run = focal(arguments + " --json");
+  CAPTURE(arguments);
+  CAPTURE(run.err);
+  REQUIRE(run.status == 0);
+  CHECK(run.err.empty());
+  return json::parse(run.out);
+}
+
+// Fails with status 1, says `words` and a hint on stderr and nothing on stdout.
+void check_fails(const std::string& arguments, const std::string& words) {
+  const Run run = focal(arguments);
+  CAPTURE(arguments);
+  CAPTURE(run.err);
+  CHECK(run.status == 1);
+  CHECK(run.out.empty());
+  CHECK(run.err.starts_with("focal: "));
+  CHECK(run.err.find(words) != std::string::npos);
+  CHECK(run.err.find("\nhint: ") != std::string::npos);
+}
+
+// A set of eggs and a model of it, made once for all tests of this file.
+struct Eggs {
+  ScratchFolder scratch;
+  json trained;
+  Eggs() {
+    write_tiny_set(scratch, 4, 2);
+    trained = focal_json("train " + folder() + " -o " + model() + " --eigenpairs 40 --trees 8");
+  }
+  std::string folder() const { return scratch.path.string(); }
+  std::string model() const { return scratch / "eggs.focal"; }
+  std::string mesh() const { return scratch / "egg4.glb"; }
+};
+
+const Eggs& eggs() {
+  static const Eggs made;
+  return made;
+}
+
+const Keys kSummaryKeys = {"mean_edges",    "median_edges",  "p95_edges",      "mean_root_area_x100",
+                           "over_10_edges", "swap_rate",     "flipped_meshes", "absent",
+                           "calibration",   "seconds_median"};
+
+void check_summary(const json& report) {
+  for (const std::string& key : kSummaryKeys) {
+    CAPTURE(key);
+    CHECK(report.contains(key));
+  }
+  CHECK(keys_of(report["absent"]) == Keys{"precision", "recall"});
+  CHECK(keys_of(report["calibration"]) == Keys{"expected_calibration_error", "auroc", "bins"});
+  CHECK(report["calibration"]["bins"].size() == 10);
+}
+
+}  // namespace
+
+TEST_CASE("wrong usage ends with 2 and says so on stderr only") {
+  for (const std::string arguments :
+       {"", "dance", "train", "train x", "detect a", "doctor --what", "train x -o y --preset best",
+        "doctor --threads -1", "doctor --threads x", "train x -o y --limit 0", "doctor --backend gpu",
+        "doctor --seed -3", "convert a.csv", "cross-validate x --folds 1", "train x -o y --sampling-rate 1.5",
+        "rig a b"}) {
+    CAPTURE(arguments);
+    const Run run = focal(arguments);
+    CHECK(run.status == 2);
+    CHECK(run.out.empty());
+    CHECK_FALSE(run.err.empty());
+  }
+}
+
+TEST_CASE("every verb explains itself and has the common options") {
+  CHECK(focal("--version").out.starts_with("focal "));
+  const Run all = focal("--help");
+  CHECK(all.status == 0);
+  for (const std::string verb : {"train", "detect", "eval", "cross-validate", "info", "convert", "doctor"}) {
+    CAPTURE(verb);
+    CHECK(all.out.find("\n  " + verb) != std::string::npos);
+    const Run run = focal(verb + " --help");
+    CHECK(run.status == 0);
+    CHECK(run.err.empty());
+    for (const char* option : {"--json", "--quiet", "--threads", "--backend", "--seed"}) {
+      CHECK(run.out.find(option) != std::string::npos);
+    }
+  }
+}
+
+TEST_CASE("doctor, info and convert: keys") {
+  const json doctor = focal_json("doctor --threads 1");
+  CHECK(keys_of(doctor) == Keys{"version", "backend", "threads", "limits", "peak_memory_bytes"});
+  CHECK(doctor["threads"]["used"] == 1);
+  const ScratchFolder scratch;
+  write_tiny_set(scratch, 1, 0);
+  const json info = focal_json("info " + (scratch / "egg0.glb"));
+  CHECK(keys_of(info) == Keys{"kind", "file", "vertices", "triangles", "surface_vertices",
+                              "surface_triangles", "mean_edge_length", "surface_area", "seconds",
+                              "warnings"});
+  CHECK(info["vertices"] == 2 + 19 * 26);
+  CHECK(info["triangles"] == 2 * 19 * 26);
+  const json converted =
+      focal_json("convert " + (scratch / "egg0.landmarks.json") + " " + (scratch / "a.mrk.json"));
+  CHECK(keys_of(converted) == Keys{"in", "out", "landmarks", "left_out"});
+  CHECK(converted["landmarks"].size() == 4);
+  CHECK(focal_cli::read_landmark_file(scratch / "a.mrk.json").landmarks.size() == 4);
+}
+
+TEST_CASE("quiet prints nothing, and without it there is something to read") {
+  const Run quiet = focal("doctor --quiet");
+  CHECK(quiet.status == 0);
+  CHECK(quiet.out.empty());
+  CHECK(quiet.err.empty());
+  CHECK_FALSE(focal("doctor").out.empty());
+}
+
+TEST_CASE("what cannot work is answered with 1, a message and a hint") {
+  const ScratchFolder scratch;
+  write_tiny_set(scratch, 2, 0);
+  const std::string set = scratch.path.string(), glb = focal_cli::read_text_file(scratch / "egg0.glb");
+  check_fails("train " + (scratch / "nowhere") + " -o x.focal", "no folder");
+  check_fails("train " + set + " -o " + (scratch / "nowhere/x.focal"), "no folder");
+  check_fails("train " + set + " -o x.focal --split test", "split 'test'");
+  check_fails("train " + set + " -o " + (scratch / "one.focal") + " --limit 1", "");
+  CHECK_FALSE(std::filesystem::exists(scratch / "one.focal"));
+  check_fails("cross-validate " + set, "at least 3");
+  check_fails("info " + (scratch / "nowhere.glb"), "nowhere.glb");
+  check_fails("info " + scratch.write("cut.glb", glb.substr(0, glb.size() / 2)), "cut.glb");
+  check_fails("info " + scratch.write("text.focal", "hello"), "text.focal");
+  check_fails("detect " + (scratch / "nowhere.focal") + " " + (scratch / "egg0.glb"), "nowhere.focal");
+  check_fails("detect a.focal b.glb -o out.txt", "out.txt");
+  check_fails("convert " + (scratch / "egg0.glb") + " x.csv", "egg0.glb");
+  check_fails("convert " + (scratch / "nowhere.csv") + " " + (scratch / "x.pp"), "nowhere.csv");
+}
+
+TEST_CASE("a mark on a vertex that is not there names mesh and landmark") {
+  const ScratchFolder scratch;
+  write_tiny_set(scratch, 3, 0);
+  scratch.write("egg1.landmarks.json",
+                R"({"format":"focal-landmarks","version":1,"landmarks":[{"name":"tail","vertex":99999}]})");
+  check_fails("train " + scratch.path.string() + " -o " + (scratch / "x.focal"),
+              "mesh 'egg1', landmark 'tail'");
+}
+
+TEST_CASE("train: keys, and the model it speaks of") {
+  CHECK(keys_of(eggs().trained) == Keys{"model", "set", "preset", "meshes", "landmarks", "samples",
+                                        "tree_nodes", "file_bytes", "seconds", "peak_memory_bytes",
+                                        "backend"});
+  CHECK(eggs().trained["file_bytes"] == std::filesystem::file_size(eggs().model()));
+  const json info = focal_json("info " + eggs().model());
+  CHECK(keys_of(info) == Keys{"kind", "file", "file_bytes", "preset", "landmarks", "shapes", "mean_vertices",
+                              "samples", "tree_nodes", "parameters"});
+  CHECK(info["landmarks"] == json({"nose", "horn.L", "horn.R", "tail"}));
+  CHECK(info["shapes"] == 4);
+  CHECK(info["parameters"]["trees"] == 8);
+  CHECK(info["parameters"]["eigenpairs"] == 40);
+}
+
+TEST_CASE("detect: keys, and places that lie where they say") {
+  const json report = focal_json("detect " + eggs().model() + " " + eggs().mesh());
+  CHECK(keys_of(report) == Keys{"mesh", "vertices", "triangles", "warnings", "seconds", "peak_memory_bytes",
+                                "backend", "landmarks", "category_fit"});
+  CHECK(keys_of(report["seconds"]) == Keys{"load", "repair", "proxy", "spectrum", "descriptors", "geodesics",
+                                           "forest", "vote", "constellation", "refine", "total"});
+  REQUIRE(report["landmarks"].size() == 4);
+  for (const json& landmark : report["landmarks"]) {
+    CHECK(keys_of(landmark) == Keys{"name", "status", "confidence", "triangle", "barycentric", "vertex",
+                                    "position", "expected_error", "runner_up"});
+    if (!landmark["runner_up"].is_null()) {
+      CHECK(keys_of(landmark["runner_up"]) ==
+            Keys{"confidence", "triangle", "barycentric", "vertex", "position"});
+    }
+    CHECK(landmark["barycentric"].size() == 3);
+    CHECK(landmark["position"].size() == 3);
+  }
+}
+
+TEST_CASE("detect writes landmark files of every format, a glTF with landmarks and the votes") {
+  const ScratchFolder scratch;
+  for (const std::string name : {"a.landmarks.json", "a.mrk.json", "a.fcsv", "a.csv", "a.pp"}) {
+    CAPTURE(name);
+    const Run run =
+        focal("detect " + eggs().model() + " " + eggs().mesh() + " --quiet -o " + (scratch / name));
+    CHECK(run.status == 0);
+    CHECK(run.out.empty());
+    CHECK_FALSE(focal_cli::read_landmark_file(scratch / name).landmarks.empty());
+  }
+  focal_json("detect " + eggs().model() + " " + eggs().mesh() + " -o " + (scratch / "a.glb") + " --votes " +
+             (scratch / "votes.glb"));
+  CHECK(focal_json("info " + (scratch / "a.glb"))["vertices"] == 2 + 19 * 26);
+  CHECK(focal_json("info " + (scratch / "votes.glb"))["vertices"] == 2 + 19 * 26);
+}
+
+TEST_CASE("the same landmarks, to the bit, for one thread and two") {
+  json one = focal_json("detect " + eggs().model() + " " + eggs().mesh() + " --threads 1");
+  json two = focal_json("detect " + eggs().model() + " " + eggs().mesh() + " --threads 2");
+  CHECK(one["landmarks"] == two["landmarks"]);
+}
+
+TEST_CASE("eval: keys, subset and limit") {
+  const json report = focal_json("eval " + eggs().model() + " " + eggs().folder());
+  Keys expected = kSummaryKeys;
+  expected.insert({"set", "model", "preset", "meshes"});
+  CHECK(keys_of(report) == expected);
+  check_summary(report);
+  REQUIRE(report["meshes"].size() == 2);
+  for (const json& mesh : report["meshes"]) {
+    CHECK(keys_of(mesh) ==
+          Keys{"name", "vertices", "seconds", "errors_edges", "errors_root_area", "swapped", "flipped"});
+    CHECK(keys_of(mesh["errors_edges"]) == Keys{"nose", "horn.L", "horn.R", "tail"});
+  }
+  CHECK(report["flipped_meshes"].is_number());
+  CHECK(report["absent"]["recall"].is_null());
+  const json part =
+      focal_json("eval " + eggs().model() + " " + eggs().folder() + " --subset nose,tail --limit 1");
+  REQUIRE(part["meshes"].size() == 1);
+  CHECK(keys_of(part["meshes"][0]["errors_edges"]) == Keys{"nose", "tail"});
+  CHECK(part["swap_rate"].is_null());
+  CHECK(part["meshes"][0]["flipped"].is_null());
+  check_fails("eval " + eggs().model() + " " + eggs().folder() + " --subset nose,wing", "'wing'");
+  CHECK(focal("eval " + eggs().model() + " " + eggs().folder()).out.find("egg5") != std::string::npos);
+}
+
+TEST_CASE("cross-validate: every mesh once, no mesh in both") {
+  const json report =
+      focal_json("cross-validate " + eggs().folder() + " --split all --folds 3 --eigenpairs 40 --trees 4");
+  Keys expected = kSummaryKeys;
+  expected.insert({"set", "preset", "folds", "meshes", "landmarks"});
+  CHECK(keys_of(report) == expected);
+  check_summary(report);
+  REQUIRE(report["meshes"].size() == 6);
+  for (size_t i = 0; i < 6; ++i) {
+    CHECK(report["meshes"][i]["name"] == "egg" + std::to_string(i));
+    CHECK(report["meshes"][i]["fold"] == i / 2);
+  }
+  CHECK(report["landmarks"].size() == 4);
+}
+
+TEST_CASE("Ctrl-C ends training with 1, a word, and no model") {
+  const ScratchFolder scratch;
+  const std::string model = scratch / "never.focal";
+  const Run run = focal("train " + eggs().folder() + " -o " + model + " --trees 10000",
+                        "timeout --preserve-status -s INT 0.5");
+  CHECK(run.status == 1);
+  CHECK(run.err.find("cancelled") != std::string::npos);
+  CHECK_FALSE(std::filesystem::exists(model));
+}
