@@ -10,7 +10,8 @@ namespace {
 
 constexpr int lanes = 32;
 
-// Four rows by four vectors of C stay in registers while the inner index runs (two rows where registers are few).
+// Four rows by four vectors of C stay in registers while the inner index runs (two rows where registers are
+// few).
 template <int vector_bytes>
 FOCAL_INLINE void multiply_add_body(const StridedView& A, int64_t rows, int64_t inner, const double* B,
                                     double* C) {

@@ -1,5 +1,6 @@
-// Dense and sparse products of tall blocks of 32 interleaved columns (those of SparseCholesky): X[i * 32 + j] is row i
-// of column j. Each sum runs in the order of its inner index, so the bits do not depend on the processor.
+// Dense and sparse products of tall blocks of 32 interleaved columns (those of SparseCholesky): X[i * 32 + j]
+// is row i of column j. Each sum runs in the order of its inner index, so the bits do not depend on the
+// processor.
 #pragma once
 #include <cstdint>
 

@@ -123,7 +123,8 @@ void SparseCholesky::solve_block(float* X) const {
               {columns_.start.data(), columns_.index.data(), columns_.value_f.data(), d, size()}, X);
 }
 
-// Here each solved row is scattered to the rows that need it: gathering a single side would chain its subtractions.
+// Here each solved row is scattered to the rows that need it: gathering a single side would chain its
+// subtractions.
 Vector SparseCholesky::solve(const Vector& b) const {
   Vector x(size());
   for (int32_t i = 0; i < size(); ++i) x(permutation_[i]) = b(i);

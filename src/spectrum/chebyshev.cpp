@@ -1,7 +1,8 @@
-// Subspace iteration in the shifted inverse, sharpened by Chebyshev polynomials (H. Rutishauser, "Computational aspects
-// of F. L. Bauer's simultaneous iteration method", 1969; Y. Zhou, Y. Saad, M. Tiago, J. Chelikowsky, "Self-consistent-
-// field calculations using Chebyshev-filtered subspace iteration", 2006). All solves are made 32 at a time, so each
-// entry of the factor is read once for 32 columns; the first rounds in float, the last ones in double.
+// Subspace iteration in the shifted inverse, sharpened by Chebyshev polynomials (H. Rutishauser,
+// "Computational aspects of F. L. Bauer's simultaneous iteration method", 1969; Y. Zhou, Y. Saad, M. Tiago,
+// J. Chelikowsky, "Self-consistent- field calculations using Chebyshev-filtered subspace iteration", 2006).
+// All solves are made 32 at a time, so each entry of the factor is read once for 32 columns; the first rounds
+// in float, the last ones in double.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -42,13 +43,15 @@ struct Filter {
   bool in_float;
 };
 
-// Eigenvalues that shape the filter, as well as they are known: the last wanted one and that of the last column.
+// Eigenvalues that shape the filter, as well as they are known: the last wanted one and that of the last
+// column.
 struct Bounds {
   double wanted, last;
 };
 
-// How much a round may lift the first eigenvector over the last column's: more, and rounding noise along the first ones
-// would drown the rest. Random columns hold all directions alike; later ones are already near their own.
+// How much a round may lift the first eigenvector over the last column's: more, and rounding noise along the
+// first ones would drown the rest. Random columns hold all directions alike; later ones are already near
+// their own.
 double growth_limit(int round) { return round == 0 ? 1e7 : round == 1 ? 1e9 : 1e13; }
 
 // gain: what is missing to the tolerance.
@@ -110,15 +113,17 @@ double norm_bound(const SparseMatrix& A) {
   return largest;
 }
 
-// The first shift follows Weyl's law, but needles have eigenvalues far above it, and a surface in many parts has many
-// near zero: a shift far too small drowns the last columns in rounding noise, one far too large cannot tell them apart.
+// The first shift follows Weyl's law, but needles have eigenvalues far above it, and a surface in many parts
+// has many near zero: a shift far too small drowns the last columns in rounding noise, one far too large
+// cannot tell them apart.
 void follow_spectrum(std::optional<ShiftedFactor>& factor, const StandardProblem& problem, double last) {
   const double shift = std::max(shift_over_last * last, 1e-2 * problem.scale);
   if (shift > 5 * factor->shift || 5 * shift < factor->shift) factor.emplace(problem.A, shift);
 }
 
-// Largest |A x - lambda x| / lambda of the wanted pairs. The zero eigenvalue is weighed against a thousandth of the
-// shift; and no residual can be smaller than the rounding of A x, which on slivers is all there is to reach.
+// Largest |A x - lambda x| / lambda of the wanted pairs. The zero eigenvalue is weighed against a thousandth
+// of the shift; and no residual can be smaller than the rounding of A x, which on slivers is all there is to
+// reach.
 class Convergence {
  public:
   Convergence(const SparseMatrix& A, double tolerance)
@@ -137,7 +142,8 @@ class Convergence {
 Eigenbasis chebyshev_eigenpairs(const StandardProblem& problem, const Execution& execution) {
   const auto n = static_cast<int32_t>(problem.A.rows());
   const int count = problem.count;
-  // Rounds converge at the ratio of the last wanted to the first dropped eigenvalue: keep a quarter more than wanted.
+  // Rounds converge at the ratio of the last wanted to the first dropped eigenvalue: keep a quarter more than
+  // wanted.
   const int blocks = (count + count / 5 + 16 + lanes - 1) / lanes;
   const double columns_per_wanted = static_cast<double>(blocks * lanes) / count;
   Bounds bounds{10 * problem.scale, 10 * problem.scale * columns_per_wanted};

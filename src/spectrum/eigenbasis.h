@@ -10,7 +10,8 @@ struct Eigenbasis {
   Matrix Phi;     // n x k, Phi^T M Phi = I
 };
 
-// chebyshev: blocks of solves, threaded, finds repeated eigenvalues. spectra: one solve after the other, the check on it.
+// chebyshev: blocks of solves, threaded, finds repeated eigenvalues. spectra: one solve after the other, the
+// check on it.
 enum class EigenMethod { spectra, chebyshev };
 
 struct EigenParams {
@@ -19,9 +20,9 @@ struct EigenParams {
   double tolerance = 1e-8;  // relative residual; the error of an eigenvalue is about its square
 };
 
-// L: n x n symmetric positive semi-definite; mass: n, > 0 (the diagonal of M). The same bits for any thread count.
-// Each eigenvector's entry of largest magnitude is positive. Throws mesh_too_small (n < 3), not_converged, cancelled.
-// Cost of 200 pairs at 12,500 vertices: chebyshev 0.7 s of one core, spectra 4 s.
+// L: n x n symmetric positive semi-definite; mass: n, > 0 (the diagonal of M). The same bits for any thread
+// count. Each eigenvector's entry of largest magnitude is positive. Throws mesh_too_small (n < 3),
+// not_converged, cancelled. Cost of 200 pairs at 12,500 vertices: chebyshev 0.7 s of one core, spectra 4 s.
 Eigenbasis eigenbasis(const SparseMatrix& L, const Vector& mass, const EigenParams& params,
                       const Execution& execution);
 

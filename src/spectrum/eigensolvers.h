@@ -4,8 +4,9 @@
 
 namespace focal {
 
-// scale: a typical spacing of the wanted eigenvalues. A is singular, so the solvers factor A + shift I, with a shift
-// of that size: small enough for quick convergence, large enough to keep every digit of large eigenvalues.
+// scale: a typical spacing of the wanted eigenvalues. A is singular, so the solvers factor A + shift I, with
+// a shift of that size: small enough for quick convergence, large enough to keep every digit of large
+// eigenvalues.
 struct StandardProblem {
   SparseMatrix A;
   double scale;

@@ -1,5 +1,5 @@
-// Implicitly restarted Lanczos by Spectra (D. Sorensen, "Implicit Application of Polynomial Filters in a k-Step Arnoldi
-// Method", 1992) in the shifted inverse.
+// Implicitly restarted Lanczos by Spectra (D. Sorensen, "Implicit Application of Polynomial Filters in a
+// k-Step Arnoldi Method", 1992) in the shifted inverse.
 #include <Spectra/SymEigsSolver.h>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
-// The Rayleigh-Ritz procedure (B. Parlett, "The Symmetric Eigenvalue Problem", 1980, chapter 11) in chunks of rows that
-// stay in cache. Sums over rows are split in a fixed number of ranges, so the bits do not depend on the threads.
+// The Rayleigh-Ritz procedure (B. Parlett, "The Symmetric Eigenvalue Problem", 1980, chapter 11) in chunks of
+// rows that stay in cache. Sums over rows are split in a fixed number of ranges, so the bits do not depend on
+// the threads.
 #include "spectrum/rayleigh_ritz.h"
 
 #include <Eigen/Cholesky>
@@ -16,7 +17,8 @@ constexpr int lanes = Columns::lanes;
 constexpr int64_t tile_size = lanes * lanes;
 constexpr int64_t chunk_rows = 64, range_count = 16;
 
-// Calls visit(range, begin, end, Y) for chunks of rows; Y holds these rows of A X, block after block of chunk_rows rows.
+// Calls visit(range, begin, end, Y) for chunks of rows; Y holds these rows of A X, block after block of
+// chunk_rows rows.
 template <class Visit>
 void for_each_product(const SparseMatrix& A, const Columns& X, const Execution& execution,
                       const Visit& visit) {
@@ -34,7 +36,8 @@ void for_each_product(const SparseMatrix& A, const Columns& X, const Execution& 
   });
 }
 
-// A symmetric matrix as a sum over the ranges, each kept in tiles of 32 x 32, of which those with a <= b are filled.
+// A symmetric matrix as a sum over the ranges, each kept in tiles of 32 x 32, of which those with a <= b are
+// filled.
 class TiledSum {
  public:
   explicit TiledSum(int blocks) : blocks_(blocks), data_(range_count * blocks * blocks * tile_size) {
@@ -95,8 +98,9 @@ void rotate(const Columns& X, const Matrix& C, const Execution& execution) {
   });
 }
 
-// C with (X C)^T (X C) = I, by the Cholesky factor of the Gram matrix of X. Where columns are dependent to rounding there
-// is none: then by eigenvectors, which leave the dependent directions short, and `complete` is false.
+// C with (X C)^T (X C) = I, by the Cholesky factor of the Gram matrix of X. Where columns are dependent to
+// rounding there is none: then by eigenvectors, which leave the dependent directions short, and `complete` is
+// false.
 struct Orthonormaliser {
   Matrix C;
   bool complete;

@@ -19,7 +19,8 @@ struct Columns {
   double operator()(int64_t i, int j) const { return block(j / lanes)[i * lanes + j % lanes]; }
 };
 
-// Replaces X by approximate eigenvectors of the symmetric A, unit and orthogonal; returns their eigenvalues, ascending.
+// Replaces X by approximate eigenvectors of the symmetric A, unit and orthogonal; returns their eigenvalues,
+// ascending.
 Vector rayleigh_ritz(const SparseMatrix& A, const Columns& X, const Execution& execution);
 
 // |A x - lambda x| of each column.
