@@ -35,11 +35,10 @@ draw() {
   panels=
   for family in $families; do
     case $family in
-      humanoid) yaw=25 ;;
-      quadruped) yaw=55 ;;
-      *) yaw=30 ;;
+      insect) pitch=40 ;;
+      *) pitch=10 ;;
     esac
-    panels="$panels $out/$family.unseen.glb,$out/$family.landmarks.json,$family,$yaw"
+    panels="$panels $out/$family.unseen.glb,$out/$family.landmarks.json,$family,$pitch"
   done
   # shellcheck disable=SC2086  # the panels are words
   "$bin"/samples/picture/focal_picture "$out/picture.svg" $panels

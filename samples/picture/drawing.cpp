@@ -98,7 +98,7 @@ std::string balls_of(const Figure& figure, const Panel& panel, std::map<std::str
   for (const size_t i : order) {
     const Mark& mark = figure.marks[i];
     const int index = colours.try_emplace(mark.name, static_cast<int>(colours.size())).first->second;
-    const bool hidden = is_hidden(panel, panel.marks[i], 2 * kBall);
+    const bool hidden = is_hidden(panel, i);
     const std::string paint = hue(index);
     const std::string place = "cx=\"" + std::to_string(rounded(panel.marks[i][0])) + "\" cy=\"" +
                               std::to_string(rounded(panel.marks[i][1])) + "\"";

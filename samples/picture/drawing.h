@@ -20,7 +20,8 @@ struct Figure {
   std::vector<std::array<uint32_t, 3>> triangles;  // counter-clockwise from outside
   std::vector<Mark> marks;
   std::string caption;
-  double yaw = 25;  // degrees the figure is turned about +Y; at 0 it looks at the viewer along +Z
+  double yaw = 0;    // degrees the figure is turned about +Y; at 0 it looks at the viewer along +Z
+  double pitch = 8;  // degrees the viewer looks down on it
 };
 
 // Marks of the same name get the same colour in every figure.

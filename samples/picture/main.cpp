@@ -1,4 +1,4 @@
-// focal_picture OUT.svg MESH.glb[,LANDMARKS.json[,CAPTION[,YAW]]] ...: draws meshes and the landmarks found on them.
+// focal_picture OUT.svg MESH.glb[,LANDMARKS.json[,CAPTION[,PITCH[,YAW]]]] ...: draws meshes and landmarks found on them.
 #include <focal/focal.h>
 
 #include <cstdio>
@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "drawing.h"
+#include "surface.h"
 
 namespace {
 
@@ -52,15 +53,15 @@ std::vector<picture::Mark> load_marks(const std::string& path) {
 
 picture::Figure load_figure(const focal_context* context, const std::string& argument) {
   std::istringstream words(argument);
-  std::string mesh, marks, caption, yaw;
+  std::string mesh, marks, pitch, yaw;
+  picture::Figure figure;
   std::getline(words, mesh, ',');
   std::getline(words, marks, ',');
-  std::getline(words, caption, ',');
-  picture::Figure figure;
-  figure.caption = caption;
-  if (std::getline(words, yaw, ',')) figure.yaw = std::stod(yaw);
+  std::getline(words, figure.caption, ',');
   load_mesh(context, mesh, figure);
   if (!marks.empty()) figure.marks = load_marks(marks);
+  if (std::getline(words, pitch, ',')) figure.pitch = std::stod(pitch);
+  figure.yaw = std::getline(words, yaw, ',') ? std::stod(yaw) : picture::best_yaw(figure);
   return figure;
 }
 
@@ -68,7 +69,8 @@ picture::Figure load_figure(const focal_context* context, const std::string& arg
 
 int main(int argc, char** argv) {
   if (argc < 3) {
-    std::fprintf(stderr, "usage: %s OUT.svg MESH.glb[,LANDMARKS.json[,CAPTION[,YAW]]] ...\n", argv[0]);
+    std::fprintf(stderr, "usage: %s OUT.svg MESH.glb[,LANDMARKS.json[,CAPTION[,PITCH[,YAW]]]] ...\n",
+                 argv[0]);
     return 2;
   }
   try {

@@ -11,7 +11,7 @@ namespace picture {
 namespace {
 
 constexpr size_t kTrianglesDrawn = 4400;  // of a figure: about 65 KB of SVG
-constexpr double kPitch = 8;              // degrees the viewer looks down
+constexpr double kNearby = 90;            // depth that two things may differ by and still touch
 
 Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
@@ -23,8 +23,8 @@ Point unit(const Point& a) {
   return length > 0 ? Point{a[0] / length, a[1] / length, a[2] / length} : a;
 }
 
-Point turned(const Point& p, double yaw) {
-  const double a = yaw * std::numbers::pi / 180, b = kPitch * std::numbers::pi / 180;
+Point turned(const Point& p, const Figure& figure) {
+  const double a = figure.yaw * std::numbers::pi / 180, b = figure.pitch * std::numbers::pi / 180;
   const double x = std::cos(a) * p[0] + std::sin(a) * p[2], z = -std::sin(a) * p[0] + std::cos(a) * p[2];
   return {x, std::cos(b) * p[1] - std::sin(b) * z, std::sin(b) * p[1] + std::cos(b) * z};
 }
@@ -69,7 +69,7 @@ Panel fit_into_panel(const Figure& figure, double width, double height) {
   std::vector<Point> turned_positions;
   Point low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
   for (const Point& p : figure.positions) {
-    turned_positions.push_back(turned(p, figure.yaw));
+    turned_positions.push_back(turned(p, figure));
     for (int k = 0; k < 3; ++k) {
       low[k] = std::min(low[k], turned_positions.back()[k]);
       high[k] = std::max(high[k], turned_positions.back()[k]);
@@ -90,13 +90,14 @@ Panel fit_into_panel(const Figure& figure, double width, double height) {
     Point normal{};
     for (const uint32_t v : t)
       for (int k = 0; k < 3; ++k) normal[k] += normals[v][k];
-    panel.patches.push_back({corners, shade_of(unit(turned(normal, figure.yaw)))});
+    panel.patches.push_back({corners, shade_of(unit(turned(normal, figure)))});
   }
-  for (const Mark& mark : figure.marks) panel.marks.push_back(placed(turned(mark.position, figure.yaw)));
+  for (const Mark& mark : figure.marks) panel.marks.push_back(placed(turned(mark.position, figure)));
   return panel;
 }
 
-bool is_hidden(const Panel& panel, const Point& point, double tolerance) {
+bool is_hidden(const Panel& panel, size_t mark) {
+  const Point& point = panel.marks[mark];
   return std::any_of(panel.patches.begin(), panel.patches.end(), [&](const Patch& patch) {
     const auto& c = patch.corners;
     std::array<double, 3> weights;  // twice the areas opposite each corner, all of one sign inside
@@ -108,8 +109,22 @@ bool is_hidden(const Panel& panel, const Point& point, double tolerance) {
     const double sum = weights[0] + weights[1] + weights[2];
     if (sum == 0) return false;
     const double depth = (weights[0] * c[0][2] + weights[1] * c[1][2] + weights[2] * c[2][2]) / sum;
-    return depth > point[2] + tolerance;
+    return depth > point[2] + kNearby;
   });
+}
+
+double best_yaw(const Figure& figure) {
+  Figure turning = figure;
+  double best = 0;
+  size_t most = 0;
+  for (const double yaw : {25., -25., 0., 40., -40., 55., -55., 70., -70.}) {
+    turning.yaw = yaw;
+    const Panel panel = fit_into_panel(turning, 2000, 2700);
+    size_t shown = 0;
+    for (size_t i = 0; i < panel.marks.size(); ++i) shown += !is_hidden(panel, i);
+    if (shown > most) most = shown, best = yaw;
+  }
+  return best;
 }
 
 }  // namespace picture

@@ -16,9 +16,12 @@ struct Panel {
   std::vector<Point> marks;    // in the figure's order
 };
 
+// The turn that shows the most marks, among those from which the figure still looks at the viewer.
+double best_yaw(const Figure& figure);
+
 Panel fit_into_panel(const Figure& figure, double width, double height);
 
-// Whether a patch lies clearly nearer to the viewer than the point.
-bool is_hidden(const Panel& panel, const Point& point, double tolerance);
+// Whether a patch lies clearly nearer to the viewer than the mark.
+bool is_hidden(const Panel& panel, size_t mark);
 
 }  // namespace picture
