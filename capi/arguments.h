@@ -16,8 +16,8 @@ std::filesystem::path path_of(const char* path);
 
 std::string text_of(const std::filesystem::path& path);
 
-// What goes wrong inside a file names the file: runs body(), puts the path before the message of an Error that lacks it
-// and says nothing of handles or parameters.
+// What goes wrong inside a file names the file: runs body(), puts the path before the message of an Error
+// that lacks it and says nothing of handles or parameters.
 template <class Body>
 void naming_file(const std::filesystem::path& path, Body&& body) {
   try {

@@ -47,7 +47,7 @@ bool is_glb(std::span<const std::byte> file) {
   return file.size() >= 4 && std::string_view(reinterpret_cast<const char*>(file.data()), 4) == "glTF";
 }
 
-// The content stays of the kind it came as, so a path that promises the other kind would mislead every reader.
+// The content stays of the kind it came as, so a path that promises the other kind would mislead.
 void check_suffix(const std::filesystem::path& path, bool binary) {
   const auto suffix = path.extension();
   const char* wanted = binary ? ".glb" : ".gltf";

@@ -15,8 +15,8 @@ struct Entry {
 };
 using Entries = std::unordered_map<uintptr_t, Entry>;
 
-// On 64-bit systems tags lie where no address of a program can, so a host's own pointer is never mistaken for one
-// and a followed tag faults at once.
+// On 64-bit systems tags lie where no address of a program can, so a host's own pointer is never mistaken for
+// one and a followed tag faults at once.
 constexpr uintptr_t kFirstTag = sizeof(uintptr_t) == 8 ? static_cast<uintptr_t>(0xF0CA'0000'0000'0001u) : 1;
 
 // Trivially destructible, so that a handle destroyed while the process ends is still answered.

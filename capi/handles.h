@@ -1,4 +1,4 @@
-// The table behind every handle: what the host holds is a tag that is looked up, never an address that is followed.
+// The table behind every handle: what the host holds is a tag that is looked up, never a followed address.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -18,7 +18,8 @@ std::shared_ptr<void> find_handle(const void* tag, HandleType type);
 // The object is freed here, or by the last call or result that still uses it. NULL is fine.
 focal_status remove_handle(const void* tag, HandleType type) noexcept;
 
-// An Object says which handle stands for it: `using Handle = focal_mesh; static constexpr HandleType type = ...`.
+// An Object says which handle stands for it: `using Handle = focal_mesh;` and
+// `static constexpr HandleType type = HandleType::mesh;`.
 template <class Object>
 typename Object::Handle* publish(std::shared_ptr<Object> object) {
   const void* tag = insert_handle(Object::type, std::move(object));

@@ -4,8 +4,9 @@
 
 namespace focal {
 
-// votes: landmarks x vertices, 0..1. Returns vertices x 3, linear RGB: grey where nothing is voted for, towards the
-// hue of the landmark with the strongest vote otherwise; neighbouring landmark numbers get distant hues.
+// votes: landmarks x vertices, 0..1. Returns vertices x 3, linear RGB: grey where nothing is voted for,
+// towards the hue of the landmark with the strongest vote otherwise; neighbouring landmark numbers get
+// distant hues.
 RowMatrixf vote_colours(const RowMatrixf& votes);
 
 }  // namespace focal

@@ -1,5 +1,5 @@
-/* Learns a model from marked meshes. A MARKS file has one line a landmark, "NAME VERTEX"; the first file says which
- * landmarks there are and in which order; a name that a later file lacks is absent on its mesh.
+/* Learns a model from marked meshes. A MARKS file has one line a landmark, "NAME VERTEX"; the first file says
+ * which landmarks there are and in which order; a name that a later file lacks is absent on its mesh.
  * usage: train MODEL MESH.glb MARKS [MESH.glb MARKS]... */
 #include <focal/focal.h>
 #include <stdio.h>

@@ -1,10 +1,11 @@
-// focal.hpp - focal.h with owners and exceptions for C++17 and later. Header only; every call is one call of focal.h,
-// whose rules hold.
+// focal.hpp - focal.h with owners and exceptions for C++17 and later. Header only; every call is one call of
+// focal.h, whose rules hold.
 //
 //   focal::Context context;
 //   focal::Model model(context, "humans.focal");
 //   focal::Mesh mesh(context, "character.glb");
-//   for (const focal_landmark& landmark : model.detect(mesh).landmarks()) use(landmark.name, landmark.position);
+//   focal::Detection detection = model.detect(mesh);
+//   for (const focal_landmark& landmark : detection.landmarks()) use(landmark.name, landmark.position);
 #ifndef FOCAL_HPP
 #define FOCAL_HPP
 

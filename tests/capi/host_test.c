@@ -1,5 +1,5 @@
-/* What a host may bring: its own threads, a log, odd floating-point settings, a comma-decimal locale; and that the
- * result is the same bits with each of them. */
+/* What a host may bring: its own threads, a log, odd floating-point settings, a comma-decimal locale; and
+ * that the result is the same bits with each of them. */
 #include <fenv.h>
 #include <locale.h>
 #include <pthread.h>
@@ -44,8 +44,8 @@ static void count_log(void* user_data, focal_log_level level, const char* messag
 
 static void keep_settings(void) {}
 
-/* Trains a small model and returns its bytes; `upset` and `restore` surround the training alone, as the shapes that
- * the test computes must stay what they are. */
+/* Trains a small model and returns its bytes; `upset` and `restore` surround the training alone, as the
+ * shapes that the test computes must stay what they are. */
 static focal_blob* trained_amid(const focal_context_params* params, void (*upset)(void),
                                 void (*restore)(void)) {
   focal_context* context = NULL;

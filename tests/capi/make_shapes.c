@@ -1,4 +1,4 @@
-/* Writes marked shapes for the samples to run on: FOLDER/shape_0.glb and shape_0.txt ("NAME VERTEX" lines), ...
+/* Writes marked shapes for the samples to run on: FOLDER/shape_0.glb and shape_0.txt ("NAME VERTEX" lines).
  * usage: make_shapes FOLDER COUNT RINGS */
 #include <stdio.h>
 #include <stdlib.h>

@@ -20,7 +20,7 @@ shape shape_create(int rings, float variation);
 void shape_destroy(shape* shape);
 focal_mesh_desc shape_desc(const shape* shape);
 
-/* A mesh and, when set is given, marks of `count` shapes added to it. Both end the test program on failure. */
+/* A mesh, and a set of `count` marked ones. Both end the test program on failure. */
 focal_mesh* shape_mesh(const focal_context* context, int rings, float variation);
 focal_training_set* shape_training_set(const focal_context* context, int rings, int count);
 
