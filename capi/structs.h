@@ -15,9 +15,9 @@ namespace focal {
 inline constexpr size_t kLargestStruct = 4096;
 
 // What a caller must know of each struct. `first_size` is its size in the first release and stays.
+// Static members: const char* name; size_t first_size; T defaults().
 template <class T>
-struct
-    StructTraits;  // static constexpr const char* name; static constexpr size_t first_size; static T defaults()
+struct StructTraits;
 
 template <class T>
 void check_struct_size(size_t size) {
