@@ -35,8 +35,8 @@ size_t chosen_folds(const Options& options, size_t meshes) {
   return options.folds > 0 ? options.folds : std::min(meshes, kMostFolds);
 }
 
-// One fold: a model from the meshes of the other folds, measured on its own. A fold is one training and as many
-// detections as it has meshes; progress counts each as a step.
+// One fold: a model from the meshes of the other folds, measured on its own. A fold is one training and as
+// many detections as it has meshes; progress counts each as a step.
 class CrossValidation {
  public:
   CrossValidation(const Options& options, const SetFolder& set, const std::vector<std::string>& names,

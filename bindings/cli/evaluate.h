@@ -1,5 +1,5 @@
-// How well landmarks were found: errors, left and right swapped, absent ones, and whether confidence means what it
-// says. Pure arithmetic; a figure that is not defined for the data is NaN and becomes null in JSON.
+// How well landmarks were found: errors, left and right swapped, absent ones, and whether confidence means
+// what it says. Pure arithmetic; a figure that is not defined for the data is NaN and becomes null in JSON.
 #pragma once
 #include <cstddef>
 #include <cstdint>

@@ -7,8 +7,8 @@ namespace focal_cli {
 
 std::string read_text_file(const std::string& path);
 
-// Writes beside the target and renames over it, so that no reader ever sees half a file and a failure keeps the
-// old one. A target that is not a regular file (/dev/stdout, a pipe) is written to directly.
+// Writes beside the target and renames over it, so that no reader ever sees half a file and a failure keeps
+// the old one. A target that is not a regular file (/dev/stdout, a pipe) is written to directly.
 void write_file_atomically(const std::string& path, std::string_view bytes);
 
 }  // namespace focal_cli

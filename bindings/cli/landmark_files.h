@@ -38,8 +38,9 @@ enum class LandmarkFormat { own_json, slicer_json, slicer_fcsv, csv, meshlab };
 // By the ending of the name: .mrk.json, .json, .fcsv, .csv, .pp. Throws CommandError for any other.
 LandmarkFormat landmark_format_of(const std::string& path);
 
-// Slicer keeps points in RAS or LPS and reads mesh files as LPS, so the mesh's coordinates are taken as LPS: points
-// stored as RAS are turned on the way in, and LPS is written. Foreign formats leave absent landmarks out.
+// Slicer keeps points in RAS or LPS and reads mesh files as LPS, so the mesh's coordinates are taken as LPS:
+// points stored as RAS are turned on the way in, and LPS is written. Foreign formats leave absent landmarks
+// out.
 LandmarkFile parse_landmarks(LandmarkFormat format, std::string_view text);
 std::string format_landmarks(LandmarkFormat format, const LandmarkFile& file);
 

@@ -12,8 +12,8 @@
 namespace focal_cli {
 
 // Lives for the length of a verb. A thread of its own watches the running task: it draws one line with stage,
-// percentage and remaining time when stderr is a terminal, and cancels the task on the first Ctrl-C (or SIGTERM);
-// the second Ctrl-C ends the process at once.
+// percentage and remaining time when stderr is a terminal, and cancels the task on the first Ctrl-C (or
+// SIGTERM); the second Ctrl-C ends the process at once.
 class Progress {
  public:
   explicit Progress(bool quiet);
@@ -21,8 +21,8 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  // The task for the next long call, which is part `index` of `count` equal ones. It lives until the next begin.
-  // Throws CommandError when Ctrl-C has been pressed.
+  // The task for the next long call, which is part `index` of `count` equal ones. It lives until the next
+  // begin. Throws CommandError when Ctrl-C has been pressed.
   focal_task* begin(const std::string& what, size_t index = 0, size_t count = 1);
   void clear();  // wipes the line, before other text is printed
 

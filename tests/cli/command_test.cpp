@@ -1,4 +1,5 @@
-// The built command from outside: exit status, the keys of every JSON document, what bad input is answered with.
+// The built command from outside: exit status, the keys of every JSON document, what bad input is answered
+// with.
 #include <doctest/doctest.h>
 #include <sys/wait.h>
 
@@ -282,7 +283,7 @@ TEST_CASE("Ctrl-C ends training with 1, a word, and no model") {
   const ScratchFolder scratch;
   const std::string model = scratch / "never.focal";
   const Run run = focal("train " + eggs().folder() + " -o " + model + " --trees 10000",
-                        "timeout --preserve-status -s INT 0.5");
+                        "timeout --preserve-status -s INT 1");
   CHECK(run.status == 1);
   CHECK(run.err.find("cancelled") != std::string::npos);
   CHECK_FALSE(std::filesystem::exists(model));

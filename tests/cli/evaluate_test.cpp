@@ -124,7 +124,8 @@ TEST_CASE("absent: precision of what is called absent, recall of what is absent"
 }
 
 TEST_CASE("calibration: bins, expected error and AUROC") {
-  // Bin 9: confidences 0.9 and 1.0 (mean 0.95), one of two right. Bin 2: confidence 0.25, right. Bin 0: 0.05, wrong.
+  // Bin 9: confidences 0.9 and 1.0 (mean 0.95), one of two right. Bin 2: confidence 0.25, right. Bin 0: 0.05,
+  // wrong.
   const Summary summary = summarise(
       std::vector{mesh_with({outcome(4, 0.9), outcome(4.1, 1.0), outcome(0, 0.25), outcome(50, 0.05)})});
   const Calibration& calibration = summary.calibration;

@@ -13,7 +13,8 @@ using namespace focal_cli;
 
 namespace {
 
-// Awkward on purpose: quotes, commas, markup, another script, numbers that only shortest round-trip text keeps.
+// Awkward on purpose: quotes, commas, markup, another script, numbers that only shortest round-trip text
+// keeps.
 LandmarkFile awkward_file() {
   LandmarkFile file{"a mesh.glb", {}};
   const char* names[] = {"hand.L", "a, \"b\" <c> & d", "\xE9\xBC\xBB", "tail"};
@@ -71,7 +72,8 @@ TEST_CASE("the other formats keep names and positions exactly, and leave absent 
 TEST_CASE("Slicer's RAS is turned into the mesh's LPS, LPS is kept") {
   const auto json = [](const std::string& system) {
     return R"({"markups":[{"coordinateSystem":)" + system +
-           R"(,"controlPoints":[{"label":"a","position":[1,2,3]},{"label":"b","positionStatus":"undefined"}]}]})";
+           R"(,"controlPoints":[{"label":"a","position":[1,2,3]},)"
+           R"({"label":"b","positionStatus":"undefined"}]}]})";
   };
   CHECK(only_position(LandmarkFormat::slicer_json, json("\"LPS\"")) == Position{1, 2, 3});
   CHECK(only_position(LandmarkFormat::slicer_json, json("\"RAS\"")) == Position{-1, -2, 3});

@@ -4,6 +4,6 @@
 
 #include "scratch_folder.h"
 
-// Meshes egg0.. of some 500 vertices with landmarks nose, horn.L, horn.R and tail; train: the first `train` of them,
-// test: the last `test`.
+// Meshes egg0.. of some 500 vertices with landmarks nose, horn.L, horn.R and tail; train: the first `train`
+// of them, test: the last `test`.
 void write_tiny_set(const ScratchFolder& scratch, int train, int test);
