@@ -113,6 +113,12 @@ bool Connectivity::collapse(int a, int b, const Vec3& at) {
   return true;
 }
 
+bool Connectivity::move(int vertex, const Vec3& to) {
+  if (turns_over(vertex, to, -1)) return false;
+  positions[vertex] = to;
+  return true;
+}
+
 bool Connectivity::flip(int a, int b) {
   const auto [left, right] = opposite(a, b);
   if (valence(a) < 4 || valence(b) < 4 || is_edge(left, right)) return false;

@@ -24,6 +24,7 @@ class Connectivity {
   int split(int a, int b, const Vec3& at);      // returns the new vertex
   bool collapse(int a, int b, const Vec3& at);  // b becomes a, unless that would fold or pinch the surface
   bool flip(int a, int b);                      // to the other diagonal, unless that would fold it
+  bool move(int vertex, const Vec3& to);        // unless that would fold the surface
   Vec3 normal(int vertex) const;                // area-weighted, not normalised
   Mesh compact() const;
 

@@ -34,10 +34,10 @@ Places place(const Build& b, Random& random) {
   p.wrist = {0, 0, 0};
   p.palm_end = {0.02, 0.90, 0};
   const double w = b.width, f = b.fingers;
-  p.fingers[0] = {"Index", Vec3(0.315 * w, 0.90, 0.0), 8, 0.78 * f, 0.094};
-  p.fingers[1] = {"Middle", Vec3(0.105 * w, 0.95, -0.01), 2, 0.87 * f, 0.097};
-  p.fingers[2] = {"Ring", Vec3(-0.105 * w, 0.91, -0.005), -5, 0.80 * f, 0.091};
-  p.fingers[3] = {"Little", Vec3(-0.300 * w, 0.80, 0.01), -14, 0.62 * f, 0.080};
+  p.fingers[0] = {"Index", Vec3(0.330 * w, 0.90, 0.0), 8, 0.78 * f, 0.094};
+  p.fingers[1] = {"Middle", Vec3(0.110 * w, 0.95, -0.01), 2, 0.87 * f, 0.097};
+  p.fingers[2] = {"Ring", Vec3(-0.110 * w, 0.91, -0.005), -5, 0.80 * f, 0.091};
+  p.fingers[3] = {"Little", Vec3(-0.315 * w, 0.80, 0.01), -14, 0.62 * f, 0.080};
   for (int i = 0; i < 4; ++i) {
     Finger& finger = p.fingers[i];
     finger.length *= random.typical(0.93, 1.07);
@@ -80,8 +80,8 @@ void add_palm(std::vector<Sweep>& flesh, const Build& b, const Places& p, const 
                                 {0.25, 0.285 * w, 0.215 * t, 0.205 * t},
                                 {0.46, 0.262 * w, 0.180 * t, 0.170 * t},
                                 {0.62, 0.345 * w, 0.160 * t, 0.165 * t},
-                                {0.85, 0.400 * w, 0.120 * t, 0.150 * t},
-                                {1.00, 0.380 * w, 0.095 * t, 0.115 * t}},
+                                {0.85, 0.410 * w, 0.120 * t, 0.150 * t},
+                                {1.00, 0.395 * w, 0.095 * t, 0.115 * t}},
                    .start_cap = 0.12,
                    .end_cap = 0.12,
                    .bones = {{bones.arm}, {bones.hand, 0.465, 0.25}},
@@ -193,7 +193,7 @@ Design design_hand(Random& random) {
   add_palm(flesh, build, places, bones);
   add_thumb(flesh, build, places, bones);
   add_fingers(flesh, places, bones);
-  return {bones.all,       Body(flesh, bones.all.mirror, random_asymmetry(random, 0.012)),
+  return {bones.all,       Body(flesh, bones.all.mirror, random_asymmetry(random, 0.008)),
           anchors(places), freedoms(bones, places),
           0.024,           0.1 * random.typical(0.9, 1.12)};
 }

@@ -191,48 +191,47 @@ void add_head(std::vector<Sweep>& flesh, const Build& b, const Places& p, const 
 void add_arm(std::vector<Sweep>& flesh, const Build& b, const Places& p, const Bones& bones) {
   // Across the arm: `front` is z, where the thumb is; `side` points down and inwards, where the palm looks.
   const double w = b.limbs, m = w * (0.94 + 0.12 * b.muscle);
-  const Vec3 end = p.shoulder + 0.61 * b.arms * p.arm;
+  const Vec3 end = p.shoulder + 0.545 * b.arms * p.arm;  // a little past the wrist
   flesh.push_back({.from = p.shoulder,
                    .to = end,
                    .front = Vec3::UnitZ(),
                    .sections = {{0.00, 0.056 * m, 0.056 * m, 0.056 * m, 0.0},
-                                {0.20, 0.047 * m, 0.050 * m, 0.049 * m, 0.002},
-                                {0.38, 0.039 * w, 0.041 * w, 0.041 * w, 0.0},
-                                {0.46, 0.036 * w, 0.038 * w, 0.040 * w, 0.0},
-                                {0.58, 0.037 * m, 0.042 * m, 0.040 * m, 0.008},
-                                {0.84, 0.024 * w, 0.029 * w, 0.028 * w, 0.028},
-                                {1.00, 0.020, 0.036, 0.036, 0.034}},
+                                {0.22, 0.047 * m, 0.050 * m, 0.049 * m, 0.002},
+                                {0.42, 0.039 * w, 0.041 * w, 0.041 * w, 0.0},
+                                {0.515, 0.036 * w, 0.038 * w, 0.040 * w, 0.0},
+                                {0.65, 0.037 * m, 0.042 * m, 0.040 * m, 0.008},
+                                {0.92, 0.023 * w, 0.029 * w, 0.028 * w, 0.027},
+                                {1.00, 0.021, 0.031, 0.031, 0.031}},
                    .start_cap = 0.055 * m,
-                   .end_cap = 0.03,
+                   .end_cap = 0.025,
                    .bones = {{bones.shoulder},
                              {bones.upper_arm, 0.0, 0.10},
-                             {bones.lower_arm, 0.451, 0.08},
-                             {bones.hand, 0.86, 0.05}},
+                             {bones.lower_arm, 0.505, 0.08},
+                             {bones.hand, 0.96, 0.05}},
                    .blend = 0.06});
-  flesh.push_back({.from = p.wrist + 0.03 * p.arm,
-                   .to = p.fingertip - 0.02 * p.arm,
+  flesh.push_back({.from = p.wrist + 0.01 * p.arm,
+                   .to = p.fingertip - 0.024 * p.arm,
                    .front = Vec3::UnitZ(),
-                   .sections = {{0, 0.020, 0.032, 0.032},
-                                {0.4, 0.018, 0.043, 0.043},
-                                {0.75, 0.015, 0.038, 0.040},
-                                {1, 0.012, 0.027, 0.028}},
+                   .sections = {{0, 0.020, 0.031, 0.031},
+                                {0.45, 0.021, 0.044, 0.043},
+                                {0.8, 0.018, 0.039, 0.040},
+                                {1, 0.015, 0.029, 0.030}},
                    .start_cap = 0.02,
-                   .end_cap = 0.022,
+                   .end_cap = 0.026,
                    .bones = {{bones.hand}},
-                   .blend = 0.025,
+                   .blend = 0.035,
                    .detail = 0.6});
-  const Vec3 thumb = p.wrist + 0.02 * p.arm + Vec3(0, 0, 0.025);
+  const Vec3 thumb = p.wrist + 0.012 * p.arm + Vec3(0, 0, 0.012);
   flesh.push_back(
       {.from = thumb,
-       .to = thumb + 0.06 * p.arm + Vec3(0, 0, 0.055) + 0.012 * Vec3(p.arm.y(), -p.arm.x(), 0),
+       .to = thumb + 0.055 * p.arm + Vec3(0, 0, 0.078) + 0.008 * Vec3(p.arm.y(), -p.arm.x(), 0),
        .front = Vec3::UnitY(),
-       .sections = {{0, 0.017, 0.019, 0.019}, {0.6, 0.0135, 0.014, 0.014}, {1, 0.011, 0.012, 0.012}},
+       .sections = {{0, 0.018, 0.021, 0.021}, {0.65, 0.014, 0.015, 0.015}, {1, 0.0115, 0.0125, 0.0125}},
        .start_cap = 0.015,
        .end_cap = 0.013,
        .bones = {{bones.hand}},
-       .blend = 0.022,
-       .detail = 0.6,
-       .paired = true});
+       .blend = 0.03,
+       .detail = 0.6});
   for (size_t i = flesh.size() - 3; i < flesh.size(); ++i) flesh[i].paired = true;
 }
 
@@ -302,7 +301,7 @@ std::vector<Anchor> anchors(const Build& b, const Places& p) {
           {"shoulder", p.shoulder, left + 0.6 * Vec3::UnitY(), true},
           {"elbow", p.elbow, back, true},
           {"handTip", p.wrist + 0.05 * p.arm, p.arm, true},
-          {"thumbTip", p.wrist + 0.035 * p.arm + Vec3(0, 0, 0.03), 0.06 * p.arm + Vec3(0, 0, 0.055), true},
+          {"thumbTip", p.wrist + 0.04 * p.arm + Vec3(0, 0, 0.052), 0.055 * p.arm + Vec3(0, 0, 0.078), true},
           {"hip", p.hip + Vec3(0, 0.01, 0), left, true},
           {"knee", p.knee, front, true},
           {"heel", p.ankle + Vec3(0, -0.04, 0), back, true},

@@ -55,12 +55,12 @@ Places place(const Build& b) {
   p.mandible[2] = p.mandible[1] + m * Vec3(-0.06, -0.01, 0.085);
   const char* names[3] = {"Front", "Middle", "Hind"};
   for (int i = 0; i < 3; ++i) {
-    const double forward[3] = {0.5, -0.08, -0.65}, length[3] = {0.9, 1.0, 1.2}, root[3] = {0.12, 0.01, -0.10};
+    const double forward[3] = {0.5, -0.08, -0.65}, length[3] = {0.9, 1.0, 1.2}, root[3] = {0.12, 0.02, -0.08};
     const Vec3 out = Vec3(1, 0, forward[i]).normalized();
     const double l = b.legs * length[i];
     Leg& leg = p.legs[i];
     leg.name = names[i];
-    leg.hip = Vec3(0.07, y - 0.03, root[i] * b.thorax);
+    leg.hip = Vec3(0.04, y - 0.02, root[i] * b.thorax);
     leg.knee = leg.hip + l * (0.30 * out + Vec3(0, 0.20, 0));
     leg.ankle = leg.knee + l * 0.24 * out;
     leg.ankle.y() = 0.07;
@@ -154,7 +154,7 @@ void add_head(std::vector<Sweep>& flesh, const Build& b, const Places& p, const 
     Sweep s = cone(from, to, r0, r1, own.bone, blend);
     s.bones = {root, own};
     s.paired = true;
-    s.detail = 0.5;
+    s.detail = 0.45;
     flesh.push_back(s);
   };
   limb(p.antenna[0], p.antenna[1], 0.026, 0.021, {bones.head}, {bones.antenna[0], 0.25, 0.06}, 0.02);
@@ -173,13 +173,13 @@ void add_legs(std::vector<Sweep>& flesh, const Build& b, const Places& p, const 
       s.sections.insert(s.sections.begin() + 1, {0.35, r[1] * w, r[1] * w, r[1] * w});
       s.bones = {root, own};
       s.paired = true;
-      s.detail = 0.55;
+      s.detail = 0.5;
       flesh.push_back(s);
     };
     part(leg.hip, leg.knee, {0.043, 0.040, 0.028}, {bones.thorax}, {bones.femur[i], 0.15, 0.08});
     flesh.back().blend = 0.03;
     part(leg.knee, leg.ankle, {0.029, 0.033, 0.023}, {bones.femur[i]}, {bones.tibia[i], 0, 0.06});
-    part(leg.ankle, leg.tip, {0.023, 0.023, 0.019}, {bones.tibia[i]}, {bones.tarsus[i], 0, 0.05});
+    part(leg.ankle, leg.tip, {0.023, 0.023, 0.021}, {bones.tibia[i]}, {bones.tarsus[i], 0, 0.05});
   }
 }
 

@@ -97,7 +97,7 @@ struct Remesher {
       }
       const Vec3 n = mesh.normal(v).normalized();
       const Vec3 step = centre / weight - old[v];
-      mesh.positions[v] = body.project(old[v] + 0.6 * (step - n * n.dot(step)));
+      mesh.move(v, body.project(old[v] + 0.6 * (step - n * n.dot(step))));
     }
   }
 
