@@ -55,7 +55,8 @@ Places place(const Build& b) {
   p.mandible[2] = p.mandible[1] + m * Vec3(-0.06, -0.01, 0.085);
   const char* names[3] = {"Front", "Middle", "Hind"};
   for (int i = 0; i < 3; ++i) {
-    const double forward[3] = {0.5, -0.08, -0.65}, length[3] = {0.9, 1.0, 1.2}, root[3] = {0.12, 0.02, -0.08};
+    const double forward[3] = {0.5, -0.08, -0.65}, length[3] = {0.88, 0.98, 1.28},
+                 root[3] = {0.12, 0.02, -0.08};
     const Vec3 out = Vec3(1, 0, forward[i]).normalized();
     const double l = b.legs * length[i];
     Leg& leg = p.legs[i];
@@ -164,9 +165,10 @@ void add_head(std::vector<Sweep>& flesh, const Build& b, const Places& p, const 
 }
 
 void add_legs(std::vector<Sweep>& flesh, const Build& b, const Places& p, const Bones& bones) {
-  const double w = b.leg_thick;
+  const double thick[3] = {0.95, 0.95, 1.15};  // hind legs carry most
   for (int i = 0; i < 3; ++i) {
     const Leg& leg = p.legs[i];
+    const double w = thick[i] * b.leg_thick;
     const auto part = [&](const Vec3& from, const Vec3& to, std::array<double, 3> r, BoneSpan root,
                           BoneSpan own) {
       Sweep s = cone(from, to, r[0] * w, r[2] * w, own.bone, 0.012);
