@@ -86,13 +86,17 @@ FOCAL_MULTIVERSION(void add_face(const double* u0, const double* u1, const doubl
 
 }  // namespace
 
-HeatMethod::HeatMethod(const TriangleMesh& mesh, const Operators& operators, double time_factor) {
+HeatMethod::HeatMethod(const TriangleMesh& mesh, const Operators& operators, const Execution& execution,
+                       double time_factor) {
   const double step = std::sqrt(time_factor) * operators.mean_edge;
   const double smallest = diameter_bound(mesh, operators.L) / representable_decay;
   time_was_raised_ = smallest > step;
   time_ = std::pow(std::max(step, smallest), 2);
+  execution.check_cancelled();
   heat_ = SparseCholesky(plus_diagonal(time_ * operators.L, operators.mass));
+  execution.check_cancelled();
   poisson_ = SparseCholesky(plus_diagonal(operators.L, 1e-9 / operators.area * operators.mass));
+  execution.check_cancelled();
   const auto& permutation = heat_.permutation();
   if (permutation != poisson_.permutation())
     throw Error(Status::internal, "the two factors of the heat method are ordered differently",

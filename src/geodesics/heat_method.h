@@ -17,7 +17,9 @@ class HeatMethod {
 
   HeatMethod() = default;
   // t = time_factor * mean edge length squared, raised on meshes so large that heat would underflow at the far end.
-  HeatMethod(const TriangleMesh& mesh, const Operators& operators, double time_factor = 1);
+  // execution is asked for cancellation between the factors.
+  HeatMethod(const TriangleMesh& mesh, const Operators& operators, const Execution& execution = {},
+             double time_factor = 1);
 
   // Called once a block of up to 32 sources, from several threads at once: distances[v * lanes + j] is the distance, in
   // the mesh's units and >= 0, of vertex v from source first + j, for j < count.

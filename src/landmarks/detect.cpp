@@ -73,7 +73,6 @@ Detection detect(std::shared_ptr<const LandmarkModel> model, std::shared_ptr<con
   for (int32_t l = 0; l < static_cast<int32_t>(model->landmark_names.size()); ++l)
     result.landmarks.push_back(landmark_at(*model, *mesh, placement, l, params));
   result.category_fit = paper ? 1 : category_fit_of(model->calibration, placement.evidence);
-  result.warnings = mesh->warnings;
   if (analysis.heat.time_was_raised())
     result.warnings.push_back("the mesh is so fine that the time step of the heat method was raised");
   if (params.keep_votes) {

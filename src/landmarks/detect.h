@@ -40,7 +40,7 @@ struct Detection {
   std::vector<DetectedLandmark> landmarks;  // one a landmark name of the model, in its order
   RowMatrixf votes;         // landmarks x surface vertices, each row's largest is 1; may be empty
   double category_fit = 0;  // 0..1
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings;  // beside those of the mesh
   StageSeconds seconds;
 };
 

@@ -24,7 +24,8 @@ SurfaceAnalysis analyse_surface(const PreparedMesh& mesh, const AnalysisParams& 
   SurfaceAnalysis result;
   Stopwatch watch;
   result.operators = make_operators(mesh.surface, mesh.bridges);
-  result.heat = HeatMethod(mesh.surface, result.operators);
+  execution.check_cancelled();
+  result.heat = HeatMethod(mesh.surface, result.operators, execution);
   result.geodesic_seconds = watch.lap();
   execution.check_cancelled();
   EigenParams eigen;
