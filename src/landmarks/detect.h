@@ -38,8 +38,8 @@ struct Detection {
   std::shared_ptr<const LandmarkModel> model;
   std::shared_ptr<const PreparedMesh> mesh;
   std::vector<DetectedLandmark> landmarks;  // one a landmark name of the model, in its order
-  RowMatrixf votes;         // landmarks x surface vertices, each row's largest is 1; may be empty
-  double category_fit = 0;  // 0..1
+  RowMatrixf votes;                   // landmarks x surface vertices, each row's largest is 1; may be empty
+  double category_fit = 0;            // 0..1
   std::vector<std::string> warnings;  // beside those of the mesh
   StageSeconds seconds;
 };
