@@ -67,7 +67,8 @@ FOCAL_INLINE void face_body(const double* u0, const double* u1, const double* u2
                             float* b0, float* b1, float* b2) {
   const float c0 = coefficient[0], c1 = coefficient[1], c2 = coefficient[2], area = coefficient[3];
   for (int j = 0; j < lanes; ++j) {
-    const double largest = std::max(std::max(u0[j], u1[j]), u2[j]);
+    // Obtuse triangles can make far heat slightly negative: its size counts, not its sign.
+    const double largest = std::max(std::max(std::abs(u0[j]), std::abs(u1[j])), std::abs(u2[j]));
     const double scale = largest > 1e-290 ? 1 / largest : 0;
     const auto d0 = static_cast<float>((u1[j] - u2[j]) * scale);
     const auto d1 = static_cast<float>((u2[j] - u0[j]) * scale);
@@ -95,7 +96,8 @@ HeatMethod::HeatMethod(const TriangleMesh& mesh, const Operators& operators, con
   execution.check_cancelled();
   heat_ = SparseCholesky(plus_diagonal(time_ * operators.L, operators.mass));
   execution.check_cancelled();
-  poisson_ = SparseCholesky(plus_diagonal(operators.L, 1e-9 / operators.area * operators.mass));
+  // The shift makes L definite. The constant mode is amplified by its inverse: 1e-6 leaves the float solve five digits.
+  poisson_ = SparseCholesky(plus_diagonal(operators.L, 1e-6 / operators.area * operators.mass));
   execution.check_cancelled();
   const auto& permutation = heat_.permutation();
   if (permutation != poisson_.permutation())
