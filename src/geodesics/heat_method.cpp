@@ -64,11 +64,12 @@ SparseMatrix plus_diagonal(SparseMatrix A, const Vector& diagonal) {
 // and g the gradient, X = -g / |g| has integrated divergence L_f u / |g| at the corners, so no 3D vector is formed; and
 // |g|^2 = u^T L_f u / area. u is first divided by its largest corner, which keeps tiny heat far away exact.
 FOCAL_INLINE void face_body(const double* u0, const double* u1, const double* u2, const float* coefficient,
-                            float* b0, float* b1, float* b2) {
+                            bool keep_negative, float* b0, float* b1, float* b2) {
   const float c0 = coefficient[0], c1 = coefficient[1], c2 = coefficient[2], area = coefficient[3];
   for (int j = 0; j < lanes; ++j) {
-    // Obtuse triangles can make far heat slightly negative: its size counts, not its sign.
-    const double largest = std::max(std::max(std::abs(u0[j]), std::abs(u1[j])), std::abs(u2[j]));
+    const double largest = keep_negative
+                               ? std::max(std::max(std::abs(u0[j]), std::abs(u1[j])), std::abs(u2[j]))
+                               : std::max(std::max(u0[j], u1[j]), u2[j]);
     const double scale = largest > 1e-290 ? 1 / largest : 0;
     const auto d0 = static_cast<float>((u1[j] - u2[j]) * scale);
     const auto d1 = static_cast<float>((u2[j] - u0[j]) * scale);
@@ -82,13 +83,15 @@ FOCAL_INLINE void face_body(const double* u0, const double* u1, const double* u2
   }
 }
 FOCAL_MULTIVERSION(void add_face(const double* u0, const double* u1, const double* u2,
-                                 const float* coefficient, float* b0, float* b1, float* b2),
-                   face_body(u0, u1, u2, coefficient, b0, b1, b2);)
+                                 const float* coefficient, bool keep_negative, float* b0, float* b1,
+                                 float* b2),
+                   face_body(u0, u1, u2, coefficient, keep_negative, b0, b1, b2);)
 
 }  // namespace
 
 HeatMethod::HeatMethod(const TriangleMesh& mesh, const Operators& operators, const Execution& execution,
-                       double time_factor) {
+                       double time_factor, bool keep_negative_heat)
+    : keep_negative_heat_(keep_negative_heat) {
   const double step = std::sqrt(time_factor) * operators.mean_edge;
   const double smallest = diameter_bound(mesh, operators.L) / representable_decay;
   time_was_raised_ = smallest > step;
@@ -140,8 +143,8 @@ void HeatMethod::solve_block(std::span<const Source> sources, double* heat, floa
   for (Eigen::Index f = 0; f < faces_.rows(); ++f) {
     size_t at[3];
     for (int i = 0; i < 3; ++i) at[i] = static_cast<size_t>(faces_(f, i)) * lanes;
-    add_face(heat + at[0], heat + at[1], heat + at[2], &face_coefficient_(f, 0), distance + at[0],
-             distance + at[1], distance + at[2]);
+    add_face(heat + at[0], heat + at[1], heat + at[2], &face_coefficient_(f, 0), keep_negative_heat_,
+             distance + at[0], distance + at[1], distance + at[2]);
   }
   poisson_.solve_block(distance);
   float zero

@@ -61,7 +61,8 @@ Detection detect(std::shared_ptr<const LandmarkModel> model, std::shared_ptr<con
                                                     .sampling_rate = params.sampling_rate,
                                                     .max_samples = params.max_samples,
                                                     .seed = params.seed,
-                                                    .stream = 0},
+                                                    .stream = 0,
+                                                    .keep_negative_heat = paper},
                                                    execution);
   result.seconds.spectrum = analysis.spectrum_seconds;
   result.seconds.descriptors = analysis.descriptor_seconds;

@@ -25,7 +25,7 @@ SurfaceAnalysis analyse_surface(const PreparedMesh& mesh, const AnalysisParams& 
   Stopwatch watch;
   result.operators = make_operators(mesh.surface, mesh.bridges);
   execution.check_cancelled();
-  result.heat = HeatMethod(mesh.surface, result.operators, execution);
+  result.heat = HeatMethod(mesh.surface, result.operators, execution, 1, params.keep_negative_heat);
   result.geodesic_seconds = watch.lap();
   execution.check_cancelled();
   EigenParams eigen;

@@ -15,6 +15,7 @@ struct AnalysisParams {
   double sampling_rate = 0.1;  // of the vertices
   int32_t max_samples = 1250;
   uint64_t seed = 0, stream = 0;
+  bool keep_negative_heat = false;  // see HeatMethod; true for preset `paper`
 };
 
 struct SurfaceAnalysis {

@@ -172,7 +172,8 @@ std::vector<SurfaceAnalysis> analyse_all(const TrainingSet& set, const TrainPara
                                    .sampling_rate = params.sampling_rate,
                                    .max_samples = params.max_samples_per_shape,
                                    .seed = params.seed,
-                                   .stream = static_cast<uint64_t>(s)},
+                                   .stream = static_cast<uint64_t>(s),
+                                   .keep_negative_heat = params.preset == Preset::paper},
                                   execution.inner());
     execution.report(static_cast<double>(++done) / static_cast<double>(analyses.size()));
   });

@@ -31,7 +31,8 @@ void write_stages(const TriangleMesh& mesh, const std::filesystem::path& folder,
   std::iota(all.begin(), all.end(), 0);
   write_raw(folder / "si_hks", si_hks(basis, operators.area, all));
 
-  const RowMatrix distances = HeatMethod(mesh, operators).distances(sources, execution).cast<double>();
+  const RowMatrix distances =
+      HeatMethod(mesh, operators, execution, 1, true).distances(sources, execution).cast<double>();
   write_raw(folder / "heat", distances);
 }
 
