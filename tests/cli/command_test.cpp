@@ -279,11 +279,12 @@ TEST_CASE("cross-validate: every mesh once, no mesh in both") {
   CHECK(report["landmarks"].size() == 4);
 }
 
+// --foreground: otherwise timeout signals the command twice, and a second Ctrl-C ends it at once.
 TEST_CASE("Ctrl-C ends training with 1, a word, and no model") {
   const ScratchFolder scratch;
   const std::string model = scratch / "never.focal";
   const Run run = focal("train " + eggs().folder() + " -o " + model + " --trees 10000",
-                        "timeout --preserve-status -s INT 1");
+                        "timeout --foreground --preserve-status -s INT 1");
   CHECK(run.status == 1);
   CHECK(run.err.find("cancelled") != std::string::npos);
   CHECK_FALSE(std::filesystem::exists(model));
