@@ -91,15 +91,17 @@ std::string surface_of(const Panel& panel) {
 
 std::string balls_of(const Figure& figure, const Panel& panel, std::map<std::string, int>& colours) {
   std::vector<size_t> order(figure.marks.size());
-  for (size_t i = 0; i < order.size(); ++i) order[i] = i;
+  for (size_t i = 0; i < order.size(); ++i) {
+    order[i] = i;
+    colours.try_emplace(figure.marks[i].name, static_cast<int>(colours.size()));
+  }
   std::sort(order.begin(), order.end(),
             [&](size_t a, size_t b) { return panel.marks[a][2] < panel.marks[b][2]; });
   std::string svg;
   for (const size_t i : order) {
     const Mark& mark = figure.marks[i];
-    const int index = colours.try_emplace(mark.name, static_cast<int>(colours.size())).first->second;
     const bool hidden = is_hidden(panel, i);
-    const std::string paint = hue(index);
+    const std::string paint = hue(colours.at(mark.name));
     const std::string place = "cx=\"" + std::to_string(rounded(panel.marks[i][0])) + "\" cy=\"" +
                               std::to_string(rounded(panel.marks[i][1])) + "\"";
     svg += std::string("<g") + (hidden ? " opacity=\".3\"" : "") + "><title>" + escaped(mark.name) +
