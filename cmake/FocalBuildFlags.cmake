@@ -32,3 +32,7 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(focal_warnings INTERFACE -Wno-restrict -Wno-array-bounds -Wno-stringop-overflow
     -Wno-stringop-overread)
 endif()
+
+# For targets where the compiler takes most of the time and the program next to none: the command and the tests.
+add_library(focal_quick_build INTERFACE)
+target_compile_options(focal_quick_build INTERFACE $<$<CONFIG:Release>:-O1>)

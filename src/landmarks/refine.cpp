@@ -7,7 +7,7 @@ namespace focal {
 namespace {
 
 constexpr float reach = 0.08f;  // of sqrt(area): the separation of the peaks, so the right one is within it
-constexpr double vote_weight = 10;    // against the mean squared deviation of the distances; both chosen by
+constexpr double vote_weight = 20;    // against the mean squared deviation of the distances; both chosen by
 constexpr double deviation_clip = 8;  // cross-validation on training splits of faust5k, teddy and scape
 constexpr int32_t rounds = 2;         // the others have moved too
 
