@@ -65,7 +65,7 @@ DetectParams checked(const focal_detect_params* given) {
   const focal_detect_params params = read_struct(given);
   constexpr double most = std::numeric_limits<int32_t>::max();
   check_range("focal_detect_params.quality", params.quality, FOCAL_QUALITY_BEST, FOCAL_QUALITY_INTERACTIVE);
-  check_range("focal_detect_params.sampling_rate", params.sampling_rate, 1e-6, 1);
+  check_range("focal_detect_params.sampling_rate", params.sampling_rate, 0, 1);
   check_range("focal_detect_params.max_samples", params.max_samples, 1, most);
   check_range("focal_detect_params.peaks_per_landmark", params.peaks_per_landmark, 1, 64);
   check_range("focal_detect_params.found_confidence", params.found_confidence, 0, 1);

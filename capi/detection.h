@@ -1,6 +1,7 @@
 // focal_detection: landmarks found on one mesh.
 #pragma once
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,13 @@ struct DetectionObject {
   std::shared_ptr<const MeshObject> mesh;
   Detection detection;
   std::vector<std::string> warnings;  // the mesh's, then the detection's own
+
+  // Landmarks x vertices of the mesh's surface, carried over from the proxy when first asked for. Any thread.
+  const RowMatrixf& full_votes() const;
+
+ private:
+  mutable std::once_flag votes_once_;
+  mutable RowMatrixf votes_;
 };
 
 }  // namespace focal

@@ -1,4 +1,6 @@
 // What leaves a detection in bulk: vote maps and files.
+#include <algorithm>
+#include <mutex>
 #include <span>
 #include <string>
 #include <utility>
@@ -13,13 +15,6 @@
 
 namespace focal {
 namespace {
-
-const RowMatrixf& votes_of(const DetectionObject& object) {
-  if (object.detection.votes.size() == 0)
-    throw Error(Status::unsupported, "the detection has no vote maps",
-                "detect with focal_detect_params.keep_votes 1");
-  return object.detection.votes;
-}
 
 const char* name_of(LandmarkStatus status) {
   switch (status) {
@@ -70,6 +65,26 @@ std::vector<std::byte> with_landmarks(const DetectionObject& object, const std::
 }
 
 }  // namespace
+
+const RowMatrixf& DetectionObject::full_votes() const {
+  if (detection.votes.size() == 0)
+    throw Error(Status::unsupported, "the detection has no vote maps",
+                "detect with focal_detect_params.keep_votes 1");
+  if (detection.proxy.is_full()) return detection.votes;
+  std::call_once(votes_once_, [&] {
+    const auto places = coarse_place_of_vertices(detection.proxy);
+    votes_ = RowMatrixf::Zero(detection.votes.rows(), static_cast<Eigen::Index>(places.size()));
+    for (size_t v = 0; v < places.size(); ++v)
+      for (int i = 0; i < 3; ++i)
+        votes_.col(v) +=
+            static_cast<float>(places[v].barycentric[i]) *
+            detection.votes.col(detection.proxy.coarse->surface.triangles(places[v].triangle, i));
+    for (Eigen::Index l = 0; l < votes_.rows(); ++l)
+      votes_.row(l) /= std::max(votes_.row(l).maxCoeff(), 1e-30f);
+  });
+  return votes_;
+}
+
 }  // namespace focal
 
 using namespace focal;
@@ -86,7 +101,7 @@ focal_status focal_detection_votes(const focal_detection* detection, uint32_t in
                   "vertex_count is " + std::to_string(vertex_count) + ", the mesh has " +
                       std::to_string(surface_vertex.size()) + " vertices",
                   "pass room for one float for each vertex of the mesh");
-    const auto votes = votes_of(*object).row(index);
+    const auto votes = object->full_votes().row(index);
     for (size_t v = 0; v < surface_vertex.size(); ++v)
       out_votes[v] = surface_vertex[v] < 0 ? 0 : votes(surface_vertex[v]);
   });
@@ -108,6 +123,6 @@ focal_status focal_detection_write_votes_gltf(const focal_detection* detection, 
     TriangleMesh surface = object->mesh->mesh->surface;
     surface.positions *= object->mesh->mesh->scale;
     surface.positions.rowwise() += object->mesh->mesh->centre.transpose();
-    write_file_atomically(file, write_glb(surface, vote_colours(votes_of(*object)), "votes"));
+    write_file_atomically(file, write_glb(surface, vote_colours(object->full_votes()), "votes"));
   });
 }

@@ -28,6 +28,7 @@ focal_train_params to_abi(const TrainParams& params) {
   result.components_per_split = params.components_per_split;
   result.sampling_rate = params.sampling_rate;
   result.max_samples_per_shape = params.max_samples_per_shape;
+  result.proxy_vertices = params.proxy_vertices;
   result.seed = params.seed;
   return result;
 }
@@ -67,13 +68,14 @@ TrainParams checked(const focal_train_params* given) {
   check_range("focal_train_params.components_per_split", params.components_per_split, 1, most);
   check_range("focal_train_params.sampling_rate", params.sampling_rate, 1e-6, 1);
   check_range("focal_train_params.max_samples_per_shape", params.max_samples_per_shape, 1, most);
-  check_reserved("focal_train_params", params.reserved);
+  check_range("focal_train_params.proxy_vertices", params.proxy_vertices, 0, most);
   result.eigenpair_count = params.eigenpair_count;
   result.tree_count = params.tree_count;
   result.min_leaf_samples = params.min_leaf_samples;
   result.components_per_split = params.components_per_split;
   result.sampling_rate = params.sampling_rate;
   result.max_samples_per_shape = params.max_samples_per_shape;
+  result.proxy_vertices = params.proxy_vertices;
   result.seed = params.seed;
   return result;
 }

@@ -43,6 +43,7 @@ Json model_json(const focal_model* model, const std::string& path) {
             {"components_per_split", params.components_per_split},
             {"sampling_rate", params.sampling_rate},
             {"max_samples_per_shape", params.max_samples_per_shape},
+            {"proxy_vertices", params.proxy_vertices},
             {"seed", params.seed}}}};
 }
 

@@ -15,6 +15,10 @@ void add_train_options(CLI::App& verb, TrainOptions& options) {
                   "Share of each mesh's vertices that is learned from")
       ->type_name("X")
       ->check(CLI::Range(1e-6, 1.0).description(""));
+  verb.add_option("--proxy", options.proxy_vertices,
+                  "Analyse larger meshes on a decimated copy of about so many vertices; 0: as they are")
+      ->type_name("N")
+      ->check(CLI::Range(0, 10000000).description(""));
 }
 
 focal_train_params train_params_of(const TrainOptions& options, const CommonOptions& common) {
@@ -23,6 +27,7 @@ focal_train_params train_params_of(const TrainOptions& options, const CommonOpti
   params.tree_count = options.trees.value_or(params.tree_count);
   params.eigenpair_count = options.eigenpairs.value_or(params.eigenpair_count);
   params.sampling_rate = options.sampling_rate.value_or(params.sampling_rate);
+  params.proxy_vertices = options.proxy_vertices.value_or(params.proxy_vertices);
   params.seed = common.seed.value_or(params.seed);
   return params;
 }

@@ -10,7 +10,7 @@ namespace focal_cli {
 
 struct TrainOptions {
   focal_preset preset = FOCAL_PRESET_DEFAULT;
-  std::optional<int32_t> trees, eigenpairs;
+  std::optional<int32_t> trees, eigenpairs, proxy_vertices;
   std::optional<double> sampling_rate;
 };
 

@@ -284,10 +284,12 @@ typedef struct focal_train_params {
   int32_t tree_count;            /* a forest, 1..10000. Default 30 */
   int32_t min_leaf_samples;      /* 1 or more. Default 5 */
   int32_t components_per_split;  /* random descriptor components tried at each split, 1 or more. Default 5 */
-  double sampling_rate;          /* of the vertices of each training mesh, above 0 to 1. Default 0.5 */
+  double sampling_rate;          /* of the vertices analysed of each training mesh, above 0 to 1. Default 1 */
   int32_t max_samples_per_shape; /* 1 or more. Default 6250 */
-  int32_t reserved;
-  uint64_t seed; /* same seed, same bits. Default 0 */
+  int32_t
+      proxy_vertices; /* meshes with more vertices are analysed on a decimated copy of about so many, here and
+                             in detection; 0: as they are. Default 3500; preset paper: 0 */
+  uint64_t seed;      /* same seed, same bits. Default 0 */
 } focal_train_params;
 
 /* init fills the default preset; set_preset refills every field with the values of one preset. */
@@ -339,9 +341,9 @@ enum {
 
 typedef struct focal_detect_params {
   uint32_t struct_size;
-  focal_quality quality;      /* default FOCAL_QUALITY_BEST */
-  double sampling_rate;       /* of the vertices, above 0 to 1. Default 0.1 */
-  int32_t max_samples;        /* 1 or more. Default 1250 */
+  focal_quality quality; /* default FOCAL_QUALITY_BEST */
+  double sampling_rate;  /* of the vertices analysed, 0 to 1; 0, the default: as suits model and quality */
+  int32_t max_samples;   /* 1 or more. Default 1250 */
   int32_t peaks_per_landmark; /* candidates among which the constellation chooses, 1..64. Default 8 */
   double found_confidence;    /* below it: FOCAL_LANDMARK_UNCERTAIN. 0..1, default 0.5 */
   double absent_confidence;   /* below it: FOCAL_LANDMARK_ABSENT. 0..found_confidence, default 0.05 */

@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
-#include <new>
 #include <numeric>
 #include <queue>
 
+#include "base/aligned_array.h"
 #include "base/error.h"
 #include "base/multiversion.h"
 
@@ -18,22 +17,6 @@ constexpr int lanes = HeatMethod::lanes;
 
 // Heat falls off like exp(-d / sqrt(t)); a double holds about exp(-700).
 constexpr double representable_decay = 650;
-
-// Scratch memory of one block, aligned for the widest vectors. Never shared, so it needs no lock.
-template <class T>
-class AlignedArray {
- public:
-  explicit AlignedArray(size_t count)
-      : data_(static_cast<T*>(::operator new(std::max<size_t>(count, 1) * sizeof(T), std::align_val_t(64)))) {
-  }
-  ~AlignedArray() { ::operator delete(data_, std::align_val_t(64)); }
-  AlignedArray(const AlignedArray&) = delete;
-  AlignedArray& operator=(const AlignedArray&) = delete;
-  T* data() { return data_; }
-
- private:
-  T* data_;
-};
 
 // An upper bound of the largest distance: twice the farthest edge path from one vertex (Dijkstra over L's graph).
 double diameter_bound(const TriangleMesh& mesh, const SparseMatrix& L) {
@@ -93,7 +76,8 @@ HeatMethod::HeatMethod(const TriangleMesh& mesh, const Operators& operators, con
                        double time_factor, bool keep_negative_heat)
     : keep_negative_heat_(keep_negative_heat) {
   const double step = std::sqrt(time_factor) * operators.mean_edge;
-  const double smallest = diameter_bound(mesh, operators.L) / representable_decay;
+  distance_bound_ = diameter_bound(mesh, operators.L);
+  const double smallest = distance_bound_ / representable_decay;
   time_was_raised_ = smallest > step;
   time_ = std::pow(std::max(step, smallest), 2);
   execution.check_cancelled();
@@ -107,20 +91,21 @@ HeatMethod::HeatMethod(const TriangleMesh& mesh, const Operators& operators, con
     throw Error(Status::internal, "the two factors of the heat method are ordered differently",
                 "report this");
 
-  const int32_t m = mesh.triangle_count();
+  const MatrixX3i& triangles = operators.triangles;
+  const auto m = static_cast<int32_t>(triangles.rows());
   positions_ = mesh.positions, triangles_ = mesh.triangles;
   faces_.resize(m, 3);
   face_coefficient_.resize(m, 4);
   std::vector<std::pair<int32_t, int32_t>> order(m);  // by smallest permuted corner
   for (int32_t t = 0; t < m; ++t)
-    order[t] = {std::min({permutation[mesh.triangles(t, 0)], permutation[mesh.triangles(t, 1)],
-                          permutation[mesh.triangles(t, 2)]}),
-                t};
+    order[t] = {
+        std::min({permutation[triangles(t, 0)], permutation[triangles(t, 1)], permutation[triangles(t, 2)]}),
+        t};
   std::sort(order.begin(), order.end());
   for (int32_t f = 0; f < m; ++f) {
     const int32_t t = order[f].second;
     for (int i = 0; i < 3; ++i) {
-      faces_(f, i) = permutation[mesh.triangles(t, i)];
+      faces_(f, i) = permutation[triangles(t, i)];
       face_coefficient_(f, i) = static_cast<float>(operators.half_cotangent(t, i));
     }
     face_coefficient_(f, 3) = static_cast<float>(operators.face_area[t]);

@@ -37,6 +37,8 @@ class HeatMethod {
 
   double time() const { return time_; }
   bool time_was_raised() const { return time_was_raised_; }
+  // No two vertices are farther apart.
+  double distance_bound() const { return distance_bound_; }
   int32_t vertex_count() const { return heat_.size(); }
 
  private:
@@ -48,7 +50,7 @@ class HeatMethod {
   void solve_block(std::span<const Source> sources, double* heat, float* distance, float* out) const;
   void run(std::span<const Source> sources, const Execution& execution, const BlockSink& sink) const;
 
-  double time_ = 0;
+  double time_ = 0, distance_bound_ = 0;
   bool time_was_raised_ = false, keep_negative_heat_ = false;
   SparseCholesky heat_, poisson_;
   MatrixX3 positions_;

@@ -13,11 +13,13 @@
 namespace focal {
 namespace {
 
-DetectedPoint point_at(const PreparedMesh& mesh, int32_t surface_vertex, double confidence) {
+DetectedPoint point_at(const PreparedMesh& mesh, const SurfacePoint& surface_point, double confidence) {
   DetectedPoint point;
-  point.source_point = to_source(mesh, at_vertex(mesh.surface, surface_vertex));
-  point.source_vertex = mesh.source_vertex[surface_vertex];
-  point.position = mesh.source.positions.row(point.source_vertex);
+  point.source_point = to_source(mesh, surface_point);
+  int nearest = 0;
+  point.source_point.barycentric.maxCoeff(&nearest);
+  point.source_vertex = mesh.source.triangles(point.source_point.triangle, nearest);
+  point.position = position_of(mesh.source, point.source_point);
   point.confidence = confidence;
   return point;
 }
@@ -27,52 +29,97 @@ LandmarkStatus status_of(double confidence, const DetectParams& params) {
   return confidence >= params.absent_confidence ? LandmarkStatus::uncertain : LandmarkStatus::absent;
 }
 
-DetectedLandmark landmark_at(const LandmarkModel& model, const PreparedMesh& mesh, const Placement& placement,
-                             int32_t l, const DetectParams& params) {
+// place, rival: on the full surface.
+DetectedLandmark landmark_at(const LandmarkModel& model, const Proxy& proxy, const Placement& placement,
+                             int32_t l, const SurfacePoint& place, const SurfacePoint& rival_place,
+                             const DetectParams& params) {
   DetectedLandmark landmark;
   if (placement.vertex[l] < 0) return landmark;             // no vote at all: absent
   const bool paper = model.params.preset == Preset::paper;  // the paper gives no confidence: its vote stands
   const double confidence = paper ? 1 : confidence_of(model.calibration, l, placement.evidence[l]);
-  static_cast<DetectedPoint&>(landmark) = point_at(mesh, placement.vertex[l], confidence);
+  static_cast<DetectedPoint&>(landmark) = point_at(*proxy.full, place, confidence);
   landmark.status = status_of(confidence, params);
-  landmark.expected_error = mesh.scale * expected_error_of(model.calibration, confidence);
+  landmark.expected_error = proxy.scale() * expected_error_of(model.calibration, confidence);
   if (placement.rival[l] >= 0) {
     const float rival = placement.evidence[l].rival;  // shares what the winner leaves, by its votes
     landmark.runner_up =
-        point_at(mesh, placement.rival[l], (1 - confidence) * std::min(1.0f, rival / (1 + rival)));
+        point_at(*proxy.full, rival_place, (1 - confidence) * std::min(1.0f, rival / (1 + rival)));
   }
   return landmark;
 }
 
-}  // namespace
+std::vector<DetectedLandmark> landmarks_at(const LandmarkModel& model, const SurfaceAnalysis& analysis,
+                                           const Placement& placement, const DetectParams& params) {
+  const auto L = placement.vertex.size();
+  std::vector<int32_t> rivals;
+  for (const int32_t rival : placement.rival) rivals.push_back(std::max(rival, 0));
+  std::vector<SurfacePoint> places = placement.point;
+  for (size_t l = 0; l < L; ++l)
+    if (placement.vertex[l] < 0) places[l].triangle = 0;  // stands for none
+  const auto rival_places = points_at(analysis.surface(), rivals);
+  places.insert(places.end(), rival_places.begin(), rival_places.end());
+  const auto full = to_full(analysis.proxy, places);
+  std::vector<DetectedLandmark> result;
+  for (size_t l = 0; l < L; ++l)
+    result.push_back(
+        landmark_at(model, analysis.proxy, placement, static_cast<int32_t>(l), full[l], full[L + l], params));
+  return result;
+}
 
-Detection detect(std::shared_ptr<const LandmarkModel> model, std::shared_ptr<const PreparedMesh> mesh,
-                 const DetectParams& params, const Execution& execution) {
-  if (!(params.sampling_rate > 0 && params.sampling_rate <= 1) || params.max_samples < 1 ||
+void validate(const DetectParams& params) {
+  if (!(params.sampling_rate >= 0 && params.sampling_rate <= 1) || params.max_samples < 1 ||
       params.peaks_per_landmark < 1)
     throw Error(Status::invalid_argument, "a detection parameter is out of its range",
                 "start from the defaults");
+}
+
+bool suits(const AnalysisParams& made, const AnalysisParams& wanted) {
+  return made.proxy_vertices == wanted.proxy_vertices && made.eigenpair_count == wanted.eigenpair_count &&
+         made.to_the_letter == wanted.to_the_letter;
+}
+
+}  // namespace
+
+SurfaceAnalysis analyse_for(const TrainParams& trained, std::shared_ptr<const PreparedMesh> mesh,
+                            const DetectParams& params, const Execution& execution) {
+  validate(params);
+  AnalysisParams how = analysis_params_of(trained);
+  how.sampling_rate = sampling_rate_of(params, trained), how.max_samples = params.max_samples;
+  how.seed = params.seed;
+  return analyse_surface(std::move(mesh), how, execution);
+}
+
+Detection detect(std::shared_ptr<const LandmarkModel> model, std::shared_ptr<const PreparedMesh> mesh,
+                 const DetectParams& params, const Execution& execution) {
+  Stopwatch whole;
+  execution.begin_stage("analysis", 0, 0.4);
+  const SurfaceAnalysis analysis = analyse_for(model->params, std::move(mesh), params, execution);
+  Detection result = detect(std::move(model), analysis, params, execution);
+  result.seconds.proxy = analysis.proxy_seconds;
+  result.seconds.spectrum = analysis.spectrum_seconds;
+  result.seconds.descriptors += analysis.descriptor_seconds;
+  result.seconds.geodesics += analysis.geodesic_seconds;
+  result.seconds.total = whole.lap();
+  return result;
+}
+
+Detection detect(std::shared_ptr<const LandmarkModel> model, const SurfaceAnalysis& analysis,
+                 const DetectParams& params, const Execution& execution) {
+  validate(params);
+  if (!suits(analysis.params, analysis_params_of(model->params)))
+    throw Error(Status::invalid_argument, "the analysis was made with other parameters than this model's",
+                "analyse the mesh once more, by the parameters of this model");
   Stopwatch whole;
   Detection result;
   const bool paper = model->params.preset == Preset::paper;
-  execution.begin_stage("analysis", 0, 0.4);
-  const SurfaceAnalysis analysis = analyse_surface(*mesh,
-                                                   {.eigenpair_count = model->params.eigenpair_count,
-                                                    .sampling_rate = params.sampling_rate,
-                                                    .max_samples = params.max_samples,
-                                                    .seed = params.seed,
-                                                    .stream = 0,
-                                                    .keep_negative_heat = paper},
-                                                   execution);
-  result.seconds.spectrum = analysis.spectrum_seconds;
-  result.seconds.descriptors = analysis.descriptor_seconds;
-  result.seconds.geodesics = analysis.geodesic_seconds;
   execution.begin_stage("votes", 0.4, 0.9);
   const Placement placement =
-      paper ? place_landmarks_paper(*model, *mesh, analysis, params, execution, result.seconds)
-            : place_landmarks(*model, *mesh, analysis, params.max_samples, params, execution, result.seconds);
-  for (int32_t l = 0; l < static_cast<int32_t>(model->landmark_names.size()); ++l)
-    result.landmarks.push_back(landmark_at(*model, *mesh, placement, l, params));
+      paper ? place_landmarks_paper(*model, analysis, params, execution, result.seconds)
+            : place_landmarks(*model, analysis, params.max_samples, params, execution, result.seconds);
+  execution.begin_stage("landmarks", 0.9, 1);
+  Stopwatch mapping;
+  result.landmarks = landmarks_at(*model, analysis, placement, params);
+  result.seconds.refine += mapping.lap();
   result.category_fit = paper ? 1 : category_fit_of(model->calibration, placement.evidence);
   if (analysis.heat.time_was_raised())
     result.warnings.push_back("the mesh is so fine that the time step of the heat method was raised");
@@ -82,7 +129,8 @@ Detection detect(std::shared_ptr<const LandmarkModel> model, std::shared_ptr<con
       result.votes.row(l) /= std::max(result.votes.row(l).maxCoeff(), 1e-30f);
   }
   result.model = std::move(model);
-  result.mesh = std::move(mesh);
+  result.proxy = analysis.proxy;
+  result.mesh = analysis.proxy.full;
   result.seconds.total = whole.lap();
   execution.begin_stage("done", 1, 1);
   return result;

@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "landmarks/landmark_model.h"
 #include "landmarks/params.h"
+#include "landmarks/surface_analysis.h"
 #include "mesh/prepare.h"
 
 namespace focal {
@@ -38,13 +39,21 @@ struct Detection {
   std::shared_ptr<const LandmarkModel> model;
   std::shared_ptr<const PreparedMesh> mesh;
   std::vector<DetectedLandmark> landmarks;  // one a landmark name of the model, in its order
-  RowMatrixf votes;                   // landmarks x surface vertices, each row's largest is 1; may be empty
+  Proxy proxy;                              // where the votes lie
+  RowMatrixf votes;  // landmarks x vertices of proxy.coarse->surface, each row's largest is 1; may be empty
   double category_fit = 0;            // 0..1
   std::vector<std::string> warnings;  // beside those of the mesh
   StageSeconds seconds;
 };
 
 Detection detect(std::shared_ptr<const LandmarkModel> model, std::shared_ptr<const PreparedMesh> mesh,
+                 const DetectParams& params, const Execution& execution);
+
+// For many models on one mesh: the analysis is made once, by parameters that suit them all.
+// Throws invalid_argument when the analysis was made with other parameters than the model's.
+SurfaceAnalysis analyse_for(const TrainParams& trained, std::shared_ptr<const PreparedMesh> mesh,
+                            const DetectParams& params, const Execution& execution);
+Detection detect(std::shared_ptr<const LandmarkModel> model, const SurfaceAnalysis& analysis,
                  const DetectParams& params, const Execution& execution);
 
 }  // namespace focal

@@ -13,12 +13,12 @@ constexpr double smoothing =
     0.024;                // standard deviation of the Gaussian, likewise; measured in the reference
 constexpr double mu = 5;  // Xia et al. 2016, Section 5
 
+// Entry i: at i + 1/2 bins from the centre of a bin, where the table has its rows.
 std::vector<float> gaussian_kernel() {
-  const int32_t half = static_cast<int32_t>(std::ceil(4 * smoothing / bin_width));
-  std::vector<float> kernel(half + 1);
-  for (int32_t i = 0; i <= half; ++i)
-    kernel[i] = static_cast<float>(std::exp(-0.5 * std::pow(i * bin_width / smoothing, 2)) * bin_width /
-                                   (smoothing * std::sqrt(2 * std::numbers::pi)));
+  std::vector<float> kernel(static_cast<size_t>(std::ceil(4 * smoothing / bin_width)));
+  for (size_t i = 0; i < kernel.size(); ++i)
+    kernel[i] = static_cast<float>(std::exp(-0.5 * std::pow((i + 0.5) * bin_width / smoothing, 2)) *
+                                   bin_width / (smoothing * std::sqrt(2 * std::numbers::pi)));
   return kernel;
 }
 
@@ -46,22 +46,24 @@ RowMatrixf leaf_histogram(const LandmarkModel& model, const float* descriptor, i
 
 VoteTables leaf_vote_tables(const LandmarkModel& model, const Eigen::Ref<const RowMatrixf>& descriptors,
                             const Execution& execution) {
+  const auto bins = static_cast<int32_t>(model.reach / bin_width) + 2;
   VoteTables tables;
-  tables.bin_width = bin_width;
-  tables.bins = static_cast<int32_t>(model.reach / bin_width) + 2;
+  tables.width = bin_width;
+  tables.rows = bins + 1;  // at the edges of the bins
   tables.landmarks = static_cast<int32_t>(model.targets.cols());
-  tables.weight.assign(static_cast<size_t>(descriptors.rows()) * tables.bins * tables.landmarks, 0);
+  tables.weight.assign(static_cast<size_t>(descriptors.rows()) * tables.rows * tables.stride(), 0);
   const std::vector<float> kernel = gaussian_kernel();
-  const auto half = static_cast<int32_t>(kernel.size()) - 1;
+  const auto half = static_cast<int32_t>(kernel.size());
   parallel_for(execution, descriptors.rows(), [&](int64_t s) {
-    const RowMatrixf histogram = leaf_histogram(model, descriptors.row(s).data(), tables.bins);
-    Eigen::Map<RowMatrixf> table(&tables.weight[s * tables.bins * tables.landmarks], tables.bins,
-                                 tables.landmarks);
-    for (int32_t b = 0; b < tables.bins; ++b) {
-      for (int32_t k = -half; k <= half; ++k)  // the ends repeat
-        table.row(b) += kernel[std::abs(k)] * histogram.row(std::clamp(b + k, 0, tables.bins - 1));
-      table.row(b) *= static_cast<float>(std::exp(-mu * std::pow((b + 0.5) * bin_width, 2)));
+    const RowMatrixf histogram = leaf_histogram(model, descriptors.row(s).data(), bins);
+    Eigen::Map<RowMatrixf> table(tables.of(s), tables.rows, tables.stride());
+    for (int32_t b = 0; b < bins; ++b) {
+      if (histogram.row(b).isZero(0)) continue;
+      for (int32_t r = std::max(b + 1 - half, 0); r < std::min(b + half, tables.rows); ++r)
+        table.row(r).head(tables.landmarks) += kernel[r > b ? r - b - 1 : b - r] * histogram.row(b);
     }
+    for (int32_t r = 0; r < tables.rows; ++r)
+      table.row(r) *= static_cast<float>(std::exp(-mu * std::pow(r * bin_width, 2)));
   });
   return tables;
 }

@@ -55,6 +55,7 @@ void write_info(const LandmarkModel& model, ByteWriter& out) {
   out.i32(params.components_per_split);
   out.f64(params.sampling_rate);
   out.i32(params.max_samples_per_shape);
+  out.i32(params.proxy_vertices);
   out.u64(params.seed);
   out.i32(model.shape_count);
   out.i32(model.mean_vertex_count);
@@ -71,6 +72,7 @@ void read_info(ByteReader in, LandmarkModel& model) {
   params.components_per_split = in.i32("components a split", 1, most);
   params.sampling_rate = in.f64("sampling rate", 0, 1);
   params.max_samples_per_shape = in.i32("samples a shape", 1, most);
+  params.proxy_vertices = in.i32("proxy vertices", 0, most);
   params.seed = in.u64("seed");
   model.shape_count = in.i32("shape count", 1, most);
   model.mean_vertex_count = in.i32("mean vertex count", 1, most);

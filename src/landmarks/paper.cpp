@@ -97,10 +97,9 @@ struct TwoVotes {
   RowMatrixf sign[2];
 };
 
-TwoVotes cast_votes(const PreparedMesh& mesh, const SurfaceAnalysis& analysis, const RowMatrixf radii[2],
-                    const Execution& execution) {
+TwoVotes cast_votes(const SurfaceAnalysis& analysis, const RowMatrixf radii[2], const Execution& execution) {
   const int32_t n = analysis.heat.vertex_count();
-  const auto edges = edges_of(mesh.surface);
+  const auto edges = edges_of(analysis.surface());
   constexpr int32_t parts = 8;  // fixed sums, added in order: the same bits for any number of threads
   TwoVotes total;
   for (auto& votes : total.sign) votes = RowMatrixf::Zero(n, radii[0].cols());
@@ -190,13 +189,13 @@ void train_paper_forests(LandmarkModel& model, const TrainingSet& set,
   }
 }
 
-Placement place_landmarks_paper(const LandmarkModel& model, const PreparedMesh& mesh,
-                                const SurfaceAnalysis& analysis, const DetectParams& params,
-                                const Execution& execution, StageSeconds& seconds) {
+Placement place_landmarks_paper(const LandmarkModel& model, const SurfaceAnalysis& analysis,
+                                const DetectParams& params, const Execution& execution,
+                                StageSeconds& seconds) {
   Stopwatch watch;
   const auto L = static_cast<int32_t>(model.landmark_names.size());
   const Vector side =
-      signed_sides(symmetry_plane(mesh.surface, params.seed, execution), mesh.surface.positions);
+      signed_sides(symmetry_plane(analysis.surface(), params.seed, execution), analysis.surface().positions);
   seconds.descriptors += watch.lap();
   RowMatrixf radii[2];
   for (int s = 0; s < 2; ++s) {
@@ -205,7 +204,7 @@ Placement place_landmarks_paper(const LandmarkModel& model, const PreparedMesh& 
     for (int32_t l = 0; l < L; ++l) radii[s].col(l) = predict_means(model.forests[l], descriptors, execution);
   }
   seconds.forest += watch.lap();
-  const TwoVotes votes = average_nearby(cast_votes(mesh, analysis, radii, execution), analysis, execution);
+  const TwoVotes votes = average_nearby(cast_votes(analysis, radii, execution), analysis, execution);
   seconds.vote += watch.lap();
   // "Higher total vote": the sum over the landmarks of the winning mean vote.
   const auto total = [&](int s) { return votes.sign[s].colwise().maxCoeff().sum(); };
@@ -221,6 +220,7 @@ Placement place_landmarks_paper(const LandmarkModel& model, const PreparedMesh& 
                                .vote_level = vote / static_cast<float>(analysis.samples.size()),
                                .rival = 0});
   }
+  result.point = points_at(analysis.surface(), result.vertex);
   return result;
 }
 

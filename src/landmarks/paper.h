@@ -15,8 +15,8 @@ void train_paper_forests(LandmarkModel& model, const TrainingSet& set,
                          const std::vector<SurfaceAnalysis>& analyses, const Execution& execution);
 
 // Isoline votes of both signs of the symmetry plane's normal; the one with the higher total vote is kept.
-Placement place_landmarks_paper(const LandmarkModel& model, const PreparedMesh& mesh,
-                                const SurfaceAnalysis& analysis, const DetectParams& params,
-                                const Execution& execution, StageSeconds& seconds);
+Placement place_landmarks_paper(const LandmarkModel& model, const SurfaceAnalysis& analysis,
+                                const DetectParams& params, const Execution& execution,
+                                StageSeconds& seconds);
 
 }  // namespace focal

@@ -5,7 +5,14 @@ namespace focal {
 TrainParams TrainParams::from_preset(Preset preset) {
   TrainParams params;
   params.preset = preset;
-  return params;  // the numbers of Xia et al. 2016, Section 5, serve both presets
+  if (preset == Preset::paper) params.proxy_vertices = 0, params.sampling_rate = 0.5;
+  return params;  // the other numbers of Xia et al. 2016, Section 5, serve both presets
+}
+
+double sampling_rate_of(const DetectParams& detect, const TrainParams& trained) {
+  if (detect.sampling_rate > 0) return detect.sampling_rate;
+  if (trained.preset == Preset::paper || trained.proxy_vertices == 0) return 0.1;
+  return detect.quality == Quality::best ? 0.4 : 0.2;
 }
 
 }  // namespace focal

@@ -13,14 +13,15 @@ struct TrainParams {
   int32_t tree_count = 30;
   int32_t min_leaf_samples = 5;  // default: smallest leaf; paper: a node of fewer than twice that is a leaf
   int32_t components_per_split = 5;  // random descriptor components tried at each split
-  double sampling_rate = 0.5;        // of the vertices of each training shape
+  int32_t proxy_vertices = 3500;  // shapes are analysed on proxies of about so many vertices; 0: as they are
+  double sampling_rate = 1;       // of the vertices analysed of each training shape
   int32_t max_samples_per_shape = 6250;
   uint64_t seed = 0;
   static TrainParams from_preset(Preset preset);
 };
 
 struct DetectParams {
-  double sampling_rate = 0.1;  // of the vertices
+  double sampling_rate = 0;  // of the vertices analysed; 0: as suits the model's preset
   int32_t max_samples = 1250;
   int32_t peaks_per_landmark = 8;
   double found_confidence = 0.5;    // below: uncertain
@@ -29,5 +30,8 @@ struct DetectParams {
   bool keep_votes = true;  // keep the vote maps in the detection
   uint64_t seed = 1;
 };
+
+// The rate asked for, or what suits the preset: Xia et al. 2016, Section 5, or as measured on proxies.
+double sampling_rate_of(const DetectParams& detect, const TrainParams& trained);
 
 }  // namespace focal

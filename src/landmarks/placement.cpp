@@ -1,8 +1,6 @@
 #include "landmarks/placement.h"
 
 #include <algorithm>
-#include <cstring>
-#include <numeric>
 
 #include "base/stopwatch.h"
 #include "landmarks/leaf_votes.h"
@@ -13,44 +11,50 @@
 namespace focal {
 namespace {
 
-constexpr int lanes = HeatMethod::lanes;
-constexpr int32_t blocks_at_once = 4;     // fixed, so that memory and results do not depend on the threads
+constexpr int32_t samples_at_once = 128;  // whose tables are in memory; a multiple of 32
 constexpr double peak_separation = 0.08;  // of sqrt(area), as measured in the reference
 constexpr double disc_radius = 0.04;      // of the tangent directions, likewise
 
-// votes: vertices x landmarks, of the first `count` samples.
+// Votes of the first `count` samples, vertices x landmarks.
 RowMatrixf cast_votes(const LandmarkModel& model, const SurfaceAnalysis& analysis, int32_t count,
                       const Execution& execution, StageSeconds& seconds) {
-  const int32_t n = analysis.heat.vertex_count();
-  RowMatrixf votes = RowMatrixf::Zero(n, static_cast<Eigen::Index>(model.landmark_names.size()));
-  std::vector<float> distances(static_cast<size_t>(blocks_at_once) * n * lanes);
-  const size_t block_size = static_cast<size_t>(n) * lanes;
+  const auto L = static_cast<int32_t>(model.landmark_names.size());
+  RowMatrixf votes = RowMatrixf::Zero(analysis.heat.vertex_count(), VoteTables::padded(L));
   Stopwatch watch;
-  for (int32_t first = 0; first < count; first += blocks_at_once * lanes) {
-    const int32_t batch = std::min(blocks_at_once * lanes, count - first);
-    analysis.heat.for_each_block(std::span(analysis.samples).subspan(first, batch), execution,
-                                 [&](int64_t at, int32_t, const float* block) {
-                                   std::memcpy(&distances[at / lanes * block_size], block,
-                                               block_size * sizeof(float));
-                                 });
-    seconds.geodesics += watch.lap();
-    for (int32_t b = 0; b * lanes < batch; ++b) {
-      const int32_t used = std::min(lanes, batch - b * lanes);
-      const VoteTables tables =
-          leaf_vote_tables(model, analysis.descriptors.middleRows(first + b * lanes, used), execution);
-      seconds.forest += watch.lap();
-      add_distribution_votes(tables, &distances[b * block_size], used, votes, execution);
-      seconds.vote += watch.lap();
+  for_each_portion(
+      analysis, count, execution, [&](int32_t first, int32_t used, const SampleDistances& portion) {
+        seconds.geodesics += watch.lap();
+        for (int32_t from = 0; from < used; from += samples_at_once) {
+          const int32_t some = std::min(samples_at_once, used - from);
+          const VoteTables tables =
+              leaf_vote_tables(model, analysis.descriptors.middleRows(first + from, some), execution);
+          seconds.forest += watch.lap();
+          add_distribution_votes(tables, some, {portion.steps.data(), portion.step, portion.vertices}, from,
+                                 votes, execution);
+          seconds.vote += watch.lap();
+        }
+      });
+  return votes.leftCols(L);
+}
+
+// Vertices reached from a vertex without leaving the ball of the peaks' separation round it.
+std::vector<int32_t> flood_ball(const SurfaceAnalysis& analysis, int32_t centre) {
+  const auto& positions = analysis.surface().positions;
+  std::vector<int32_t> inside = {centre};
+  std::vector<char> seen(positions.rows(), 0);
+  seen[centre] = 1;
+  for (size_t i = 0; i < inside.size(); ++i)
+    for (SparseMatrix::InnerIterator it(analysis.operators.L, inside[i]); it; ++it) {
+      const auto v = static_cast<int32_t>(it.row());
+      if (seen[v] || (positions.row(v) - positions.row(centre)).norm() >= peak_separation) continue;
+      seen[v] = 1, inside.push_back(v);
     }
-    execution.report(static_cast<double>(first + batch) / count);
-  }
-  return votes;
+  return inside;
 }
 
 ConstellationCandidates make_candidates(const std::vector<std::vector<int32_t>>& peaks,
-                                        const RowMatrixf& votes, const PreparedMesh& mesh,
-                                        const SurfaceAnalysis& analysis, std::vector<int32_t>& vertices,
-                                        const Execution& execution) {
+                                        const RowMatrixf& votes, const SurfaceAnalysis& analysis,
+                                        std::vector<int32_t>& vertices, const Execution& execution) {
   ConstellationCandidates candidates;
   for (size_t l = 0; l < peaks.size(); ++l) {
     candidates.start.push_back(static_cast<int32_t>(vertices.size()));
@@ -65,12 +69,8 @@ ConstellationCandidates make_candidates(const std::vector<std::vector<int32_t>>&
   for (size_t a = 0; a < vertices.size(); ++a)
     for (size_t b = 0; b < vertices.size(); ++b)
       candidates.distance(a, b) = (fields(a, vertices[b]) + fields(b, vertices[a])) / 2;
-  std::vector<SurfacePoint> points;
-  std::vector<SurfacePoint> corner(mesh.surface.vertex_count());
-  for (int32_t t = 0; t < mesh.surface.triangle_count(); ++t)
-    for (int i = 0; i < 3; ++i) corner[mesh.surface.triangles(t, i)] = {t, Vector3::Unit(i)};
-  for (const int32_t v : vertices) points.push_back(corner[v]);
-  candidates.directions = tangent_directions(mesh.surface, points, fields, disc_radius, execution);
+  candidates.directions = tangent_directions(analysis.surface(), points_at(analysis.surface(), vertices),
+                                             fields, disc_radius, execution);
   return candidates;
 }
 
@@ -99,20 +99,19 @@ void record_evidence(const std::vector<std::vector<int32_t>>& peaks,
 
 }  // namespace
 
-Placement place_landmarks(const LandmarkModel& model, const PreparedMesh& mesh,
-                          const SurfaceAnalysis& analysis, int32_t sample_limit, const DetectParams& params,
-                          const Execution& execution, StageSeconds& seconds) {
+Placement place_landmarks(const LandmarkModel& model, const SurfaceAnalysis& analysis, int32_t sample_limit,
+                          const DetectParams& params, const Execution& execution, StageSeconds& seconds) {
   Placement result;
   const int32_t samples = std::min(sample_limit, static_cast<int32_t>(analysis.samples.size()));
   result.votes = cast_votes(model, analysis, samples, execution, seconds);
   Stopwatch watch;
-  const auto peaks =
-      find_peaks(result.votes, params.peaks_per_landmark, peak_separation, 0,
-                 [&](std::span<const int32_t> v) { return analysis.heat.distances(v, execution); });
+  const auto peaks = find_peaks(
+      result.votes, static_cast<int32_t>(result.votes.cols()), params.peaks_per_landmark, 0,
+      [&](int32_t v) { return flood_ball(analysis, v); }, execution);
   seconds.vote += watch.lap();
   std::vector<int32_t> vertices;
   const ConstellationCandidates candidates =
-      make_candidates(peaks, result.votes, mesh, analysis, vertices, execution);
+      make_candidates(peaks, result.votes, analysis, vertices, execution);
   const ConstellationChoice choice =
       choose_constellation(model.constellation, candidates, ConstellationParams{}, execution);
   result.energy = choice.energy;

@@ -17,16 +17,16 @@ struct Evidence {
 };
 
 struct Placement {
-  std::vector<int32_t> vertex;  // one a landmark, of the surface; -1 when there is no vote for it
-  std::vector<int32_t> rival;   // its strongest other peak, or -1
+  std::vector<int32_t> vertex;  // one a landmark, of the analysed surface; -1 when there is no vote for it
+  std::vector<SurfacePoint> point;  // the same, between the vertices
+  std::vector<int32_t> rival;       // its strongest other peak, or -1
   std::vector<Evidence> evidence;
   double energy = 0;  // of the constellation
-  RowMatrixf votes;   // vertices x landmarks
+  RowMatrixf votes;   // vertices of the analysed surface x landmarks
 };
 
 // sample_limit: at most so many of the analysis' samples vote.
-Placement place_landmarks(const LandmarkModel& model, const PreparedMesh& mesh,
-                          const SurfaceAnalysis& analysis, int32_t sample_limit, const DetectParams& params,
-                          const Execution& execution, StageSeconds& seconds);
+Placement place_landmarks(const LandmarkModel& model, const SurfaceAnalysis& analysis, int32_t sample_limit,
+                          const DetectParams& params, const Execution& execution, StageSeconds& seconds);
 
 }  // namespace focal

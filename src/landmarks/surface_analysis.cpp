@@ -11,21 +11,57 @@
 namespace focal {
 namespace {
 
+constexpr int lanes = HeatMethod::lanes;
+constexpr int64_t kept_entries = int64_t{1} << 25;     // 64 MB
+constexpr int64_t portion_entries = int64_t{1} << 24;  // of a portion that is computed anew
+
 int32_t sample_count(int32_t vertices, const AnalysisParams& params) {
   const auto wanted = static_cast<int32_t>(std::lround(params.sampling_rate * vertices));
   // On a tiny mesh a tenth of the vertices is too few to vote: at least 100, or all of them.
   return std::min({std::max(wanted, 100), vertices, params.max_samples});
 }
 
+// Blocks [first, first + count) of the samples' distances, for `used` samples.
+SampleDistances compute_distances(const SurfaceAnalysis& analysis, int32_t first, int32_t used,
+                                  const Execution& execution) {
+  SampleDistances result;
+  result.vertices = analysis.heat.vertex_count();
+  result.step = analysis.heat.distance_bound() / 65535;
+  const size_t block = static_cast<size_t>(result.vertices) * lanes;
+  result.steps.resize((used + lanes - 1) / lanes * block);
+  const auto to_steps = static_cast<float>(1 / result.step);
+  analysis.heat.for_each_block(
+      std::span(analysis.samples).subspan(first, used), execution,
+      [&](int64_t at, int32_t, const float* distances) {
+        uint16_t* out = &result.steps[at / lanes * block];
+        for (size_t i = 0; i < block; ++i)
+          out[i] =
+              static_cast<uint16_t>(static_cast<int32_t>(std::min(distances[i] * to_steps + 0.5f, 65535.0f)));
+      });
+  return result;
+}
+
 }  // namespace
 
-SurfaceAnalysis analyse_surface(const PreparedMesh& mesh, const AnalysisParams& params,
+AnalysisParams analysis_params_of(const TrainParams& trained) {
+  AnalysisParams params;
+  params.proxy_vertices = trained.proxy_vertices;
+  params.eigenpair_count = trained.eigenpair_count;
+  params.to_the_letter = trained.preset == Preset::paper;
+  return params;
+}
+
+SurfaceAnalysis analyse_surface(std::shared_ptr<const PreparedMesh> mesh, const AnalysisParams& params,
                                 const Execution& execution) {
   SurfaceAnalysis result;
   Stopwatch watch;
-  result.operators = make_operators(mesh.surface, mesh.bridges);
+  result.params = params;
+  result.proxy = make_proxy(std::move(mesh), params.proxy_vertices);
+  result.proxy_seconds = watch.lap();
   execution.check_cancelled();
-  result.heat = HeatMethod(mesh.surface, result.operators, execution, 1, params.keep_negative_heat);
+  result.operators = make_operators(result.surface(), result.proxy.coarse->bridges, !params.to_the_letter);
+  execution.check_cancelled();
+  result.heat = HeatMethod(result.surface(), result.operators, execution, 1, params.to_the_letter);
   result.geodesic_seconds = watch.lap();
   execution.check_cancelled();
   EigenParams eigen;
@@ -35,11 +71,32 @@ SurfaceAnalysis analyse_surface(const PreparedMesh& mesh, const AnalysisParams& 
   const Eigenbasis basis = eigenbasis(result.operators.L, result.operators.mass, eigen, execution);
   result.spectrum_seconds = watch.lap();
   Random random(params.seed, params.stream);
-  const int32_t n = mesh.surface.vertex_count();
-  result.samples = sample_without_replacement(random, n, sample_count(n, params));
+  const int32_t n = result.surface().vertex_count(), count = sample_count(n, params);
+  result.samples = sample_without_replacement(random, n, count);
   result.descriptors = si_hks(basis, result.operators.area, result.samples).cast<float>();
   result.descriptor_seconds = watch.lap();
   return result;
+}
+
+void keep_distances(SurfaceAnalysis& analysis, const Execution& execution) {
+  const auto samples = static_cast<int32_t>(analysis.samples.size());
+  if (!analysis.distances.steps.empty() || int64_t{samples} * analysis.heat.vertex_count() > kept_entries)
+    return;
+  Stopwatch watch;
+  analysis.distances = compute_distances(analysis, 0, samples, execution);
+  analysis.geodesic_seconds += watch.lap();
+}
+
+void for_each_portion(const SurfaceAnalysis& analysis, int32_t count, const Execution& execution,
+                      const DistanceSink& sink) {
+  if (!analysis.distances.steps.empty()) return sink(0, count, analysis.distances);
+  // Fixed by the mesh alone, so that memory and results do not depend on the threads.
+  const int64_t blocks = std::max<int64_t>(portion_entries / lanes / analysis.heat.vertex_count(), 4);
+  for (int32_t first = 0; first < count; first += static_cast<int32_t>(blocks) * lanes) {
+    const int32_t used = std::min(static_cast<int32_t>(blocks) * lanes, count - first);
+    sink(first, used, compute_distances(analysis, first, used, execution));
+    execution.report(static_cast<double>(first + used) / count);
+  }
 }
 
 }  // namespace focal

@@ -30,9 +30,12 @@ void validate(const TrainingSet& set, const TrainParams& params) {
     throw Error(Status::invalid_argument, "the training set has no landmark names",
                 "name at least one landmark");
   if (params.tree_count < 1 || params.components_per_split < 1 || params.min_leaf_samples < 1 ||
-      params.eigenpair_count < 8 || params.max_samples_per_shape < 1 ||
+      params.eigenpair_count < 8 || params.max_samples_per_shape < 1 || params.proxy_vertices < 0 ||
       !(params.sampling_rate > 0 && params.sampling_rate <= 1))
     throw Error(Status::invalid_argument, "a training parameter is out of its range", "start from a preset");
+  if (params.preset == Preset::paper && params.proxy_vertices != 0)
+    throw Error(Status::invalid_argument, "preset paper analyses a surface as it is, without a proxy",
+                "set proxy_vertices to 0");
   if (set.shapes.size() < 2)
     throw Error(Status::too_few_shapes,
                 "the training set has " + std::to_string(set.shapes.size()) + " mesh" +
@@ -49,10 +52,9 @@ void validate(const TrainingSet& set, const TrainParams& params) {
   }
 }
 
-float at_point(const PreparedMesh& mesh, const SurfacePoint& point, const float* field) {
+float at_point(const TriangleMesh& mesh, const SurfacePoint& point, const float* field) {
   double value = 0;
-  for (int i = 0; i < 3; ++i)
-    value += point.barycentric[i] * field[mesh.surface.triangles(point.triangle, i)];
+  for (int i = 0; i < 3; ++i) value += point.barycentric[i] * field[mesh.triangles(point.triangle, i)];
   return static_cast<float>(value);
 }
 
@@ -66,18 +68,20 @@ LearnedShape learn_shape(const MarkedShape& shape, const SurfaceAnalysis& analys
     result.constellation.present.push_back(shape.marks[l].has_value());
     if (shape.marks[l]) points.push_back(*shape.marks[l]), landmark.push_back(l);
   }
+  points = to_coarse(analysis.proxy, points);
   const RowMatrixf fields = analysis.heat.distances(points, execution);
   result.targets = RowMatrixf::Constant(analysis.samples.size(), L, NAN);
   auto& constellation = result.constellation;
   constellation.distance = RowMatrixf::Zero(L, L);
   constellation.directions = {RowMatrixf::Zero(L, L), RowMatrixf::Zero(L, L)};
   const TangentDirections directions =
-      tangent_directions(shape.mesh->surface, points, fields, disc_radius, execution);
+      tangent_directions(analysis.surface(), points, fields, disc_radius, execution);
   for (size_t a = 0; a < points.size(); ++a) {
     for (size_t s = 0; s < analysis.samples.size(); ++s)
       result.targets(s, landmark[a]) = fields(a, analysis.samples[s]);
     for (size_t b = 0; b < points.size(); ++b) {
-      constellation.distance(landmark[a], landmark[b]) = at_point(*shape.mesh, points[b], &fields(a, 0));
+      constellation.distance(landmark[a], landmark[b]) =
+          at_point(analysis.surface(), points[b], &fields(a, 0));
       constellation.directions.x(landmark[a], landmark[b]) = directions.x(a, b);
       constellation.directions.y(landmark[a], landmark[b]) = directions.y(a, b);
     }
@@ -146,15 +150,18 @@ Calibration cross_fit(const LandmarkModel& model, const TrainingSet& set,
       const MarkedShape& shape = set.shapes[order[i]];
       const DetectParams detect;
       StageSeconds ignored;
-      const auto limit = static_cast<int32_t>(detect.sampling_rate * shape.mesh->surface.vertex_count());
-      const Placement placement =
-          place_landmarks(part, *shape.mesh, analyses[order[i]], std::clamp(limit, 100, detect.max_samples),
-                          detect, execution, ignored);
+      const SurfaceAnalysis& analysis = analyses[order[i]];
+      const auto limit =
+          static_cast<int32_t>(sampling_rate_of(detect, model.params) * analysis.surface().vertex_count());
+      const Placement placement = place_landmarks(part, analysis, std::clamp(limit, 100, detect.max_samples),
+                                                  detect, execution, ignored);
       for (size_t l = 0; l < shape.marks.size(); ++l) {
         if (!shape.marks[l] || placement.vertex[l] < 0) continue;
-        const Vector3 placed = shape.mesh->surface.positions.row(placement.vertex[l]);
-        judged.push_back({static_cast<int32_t>(l), order[i], placement.evidence[l],
-                          (placed - position_of(shape.mesh->surface, *shape.marks[l])).norm()});
+        const SurfacePoint truth = to_coarse(analysis.proxy, std::span(&*shape.marks[l], 1))[0];
+        judged.push_back(
+            {static_cast<int32_t>(l), order[i], placement.evidence[l],
+             (position_of(analysis.surface(), placement.point[l]) - position_of(analysis.surface(), truth))
+                 .norm()});
       }
     }
   }
@@ -167,14 +174,10 @@ std::vector<SurfaceAnalysis> analyse_all(const TrainingSet& set, const TrainPara
   execution.begin_stage("analysis", 0, 0.4);
   std::atomic<int32_t> done{0};
   parallel_for(execution, static_cast<int64_t>(set.shapes.size()), [&](int64_t s) {
-    analyses[s] = analyse_surface(*set.shapes[s].mesh,
-                                  {.eigenpair_count = params.eigenpair_count,
-                                   .sampling_rate = params.sampling_rate,
-                                   .max_samples = params.max_samples_per_shape,
-                                   .seed = params.seed,
-                                   .stream = static_cast<uint64_t>(s),
-                                   .keep_negative_heat = params.preset == Preset::paper},
-                                  execution.inner());
+    AnalysisParams how = analysis_params_of(params);
+    how.sampling_rate = params.sampling_rate, how.max_samples = params.max_samples_per_shape;
+    how.seed = params.seed, how.stream = static_cast<uint64_t>(s);
+    analyses[s] = analyse_surface(set.shapes[s].mesh, how, execution.inner());
     execution.report(static_cast<double>(++done) / static_cast<double>(analyses.size()));
   });
   return analyses;

@@ -150,4 +150,12 @@ SurfacePoint at_vertex(const TriangleMesh& mesh, int32_t vertex) {
   return {};
 }
 
+std::vector<SurfacePoint> points_at(const TriangleMesh& mesh, std::span<const int32_t> vertices) {
+  std::vector<SurfacePoint> corner(mesh.vertex_count()), result;
+  for (int32_t t = 0; t < mesh.triangle_count(); ++t)
+    for (int i = 0; i < 3; ++i) corner[mesh.triangles(t, i)] = {t, Vector3::Unit(i)};
+  for (const int32_t v : vertices) result.push_back(corner[v]);
+  return result;
+}
+
 }  // namespace focal

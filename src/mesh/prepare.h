@@ -1,6 +1,7 @@
 // From a caller's triangles to the surface that is analysed: welded, cleaned, centred, of unit area, with the
 // maps back to the caller's own vertex and triangle numbers.
 #pragma once
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -36,7 +37,8 @@ PreparedMesh prepare(TriangleMesh source, const PrepareParams& params = {});
 // Surface point of the prepared surface for one of the caller's and back; triangle -1 when it was dropped.
 SurfacePoint to_surface(const PreparedMesh& mesh, const SurfacePoint& source_point);
 SurfacePoint to_source(const PreparedMesh& mesh, const SurfacePoint& surface_point);
-// A surface point at a vertex of the surface (any of its triangles).
+// A surface point at a vertex of the surface (any of its triangles), or at each of several.
 SurfacePoint at_vertex(const TriangleMesh& mesh, int32_t vertex);
+std::vector<SurfacePoint> points_at(const TriangleMesh& mesh, std::span<const int32_t> vertices);
 
 }  // namespace focal

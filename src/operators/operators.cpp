@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "operators/intrinsic_delaunay.h"
+
 namespace focal {
 namespace {
 
@@ -19,9 +21,21 @@ struct Corners {
   Vector3 scaled_hat_gradient(int i) const { return normal.normalized().cross(opposite.col(i)); }
 };
 
+// From the corners' places, which is more exact than from lengths where a triangle is thin.
+TriangleMeasure measure_corners(const TriangleMesh& mesh, int32_t t, double smallest_area) {
+  const Corners corners(mesh, t);
+  const double twice = corners.normal.norm();
+  TriangleMeasure result{twice / 2, {}};
+  for (int i = 0; i < 3; ++i)
+    result.half_cotangent[i] = -corners.opposite.col((i + 1) % 3).dot(corners.opposite.col((i + 2) % 3)) / 2 /
+                               std::max(twice, 2 * smallest_area);
+  return result;
+}
+
 }  // namespace
 
-Operators make_operators(const TriangleMesh& mesh, std::span<const std::pair<int32_t, int32_t>> bridges) {
+Operators make_operators(const TriangleMesh& mesh, std::span<const std::pair<int32_t, int32_t>> bridges,
+                         bool delaunay) {
   Operators result;
   const int32_t n = mesh.vertex_count(), m = mesh.triangle_count();
   result.half_cotangent.resize(m, 3);
@@ -35,18 +49,18 @@ Operators make_operators(const TriangleMesh& mesh, std::span<const std::pair<int
     entries.emplace_back(a, b, -weight), entries.emplace_back(b, a, -weight);
     entries.emplace_back(a, a, weight), entries.emplace_back(b, b, weight);
   };
+  const IntrinsicTriangulation surface = delaunay ? intrinsic_delaunay(mesh) : intrinsic_copy(mesh);
+  result.triangles = surface.triangles;
   for (int32_t t = 0; t < m; ++t) {
-    const Corners corners(mesh, t);
-    const double twice = corners.normal.norm();
-    result.face_area[t] = twice / 2;
+    // The floor keeps slivers finite; it is far below the area of any triangle that matters.
+    const TriangleMeasure triangle = delaunay ? measure(surface.lengths.row(t), 5e-13 * result.area)
+                                              : measure_corners(mesh, t, 5e-13 * result.area);
+    result.face_area[t] = triangle.area;
+    result.half_cotangent.row(t) = triangle.half_cotangent;
     for (int i = 0; i < 3; ++i) {
-      const int j = (i + 1) % 3, k = (i + 2) % 3;
-      // The floor keeps slivers finite; it is far below the area of any triangle that matters.
-      const double cotangent =
-          -corners.opposite.col(j).dot(corners.opposite.col(k)) / std::max(twice, 1e-12 * result.area);
-      result.half_cotangent(t, i) = cotangent / 2;
-      add_edge(mesh.triangles(t, j), mesh.triangles(t, k), cotangent / 2);
-      result.mass[mesh.triangles(t, i)] += twice / 6;
+      add_edge(surface.triangles(t, (i + 1) % 3), surface.triangles(t, (i + 2) % 3),
+               triangle.half_cotangent[i]);
+      result.mass[surface.triangles(t, i)] += triangle.area / 3;
     }
   }
   for (const auto& [a, b] : bridges) add_edge(a, b, 1);

@@ -1,19 +1,20 @@
 // The separate maxima of the vote maps.
 #pragma once
 #include <functional>
-#include <span>
 #include <vector>
 
 #include "base/matrix.h"
+#include "base/parallel.h"
 
 namespace focal {
 
-// Distances (sources x vertices) from several vertices at once.
-using DistanceFields = std::function<RowMatrixf(std::span<const int32_t> vertices)>;
+// The vertices too near to a peak to be another one, the peak among them.
+using Surroundings = std::function<std::vector<int32_t>(int32_t vertex)>;
 
-// Up to `count` vertices a landmark, best first, each at least `separation` from the earlier ones and with a vote of at
-// least `floor` of the best. votes: vertices x landmarks.
-std::vector<std::vector<int32_t>> find_peaks(const RowMatrixf& votes, int32_t count, double separation,
-                                             double floor, const DistanceFields& fields);
+// Up to `count` vertices a landmark, best first, each outside the surroundings of the earlier ones and with a vote of at
+// least `floor` of the best. votes: vertices x columns, of which the first `landmarks` count.
+std::vector<std::vector<int32_t>> find_peaks(const RowMatrixf& votes, int32_t landmarks, int32_t count,
+                                             double floor, const Surroundings& surroundings,
+                                             const Execution& execution);
 
 }  // namespace focal

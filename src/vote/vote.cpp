@@ -10,25 +10,62 @@ namespace {
 
 constexpr int lanes = 32;
 
-FOCAL_MULTIVERSION(void add_interpolated(float* votes, const float* low, const float* high, float fraction,
-                                         int32_t count),
-                   for (int32_t l = 0; l < count; ++l) votes[l] += low[l] + fraction * (high[l] - low[l]);)
+constexpr int32_t tile = 8;  // samples at a time: their tables stay in the second-level cache
+
+// One tile of samples over one range of vertices.
+struct TileVotes {
+  const float* table[tile];
+  const uint16_t* steps;  // of the range's first vertex, the tile's first sample
+  float to_row;           // rows a step
+  int32_t count, last_row, stride;
+  float* votes;
+  int64_t vertices;
+};
+
+// Eight landmarks a vector, `vectors` of them stay in registers while the samples of the tile go by.
+template <int vectors>
+FOCAL_INLINE void add_tile(const TileVotes& t, int32_t lane) {
+  typedef float Lane __attribute__((vector_size(32), may_alias, aligned(4)));
+  for (int64_t v = 0; v < t.vertices; ++v) {
+    Lane* out = reinterpret_cast<Lane*>(t.votes + v * t.stride + lane);
+    Lane sum[vectors];
+    for (int k = 0; k < vectors; ++k) sum[k] = out[k];
+    for (int32_t j = 0; j < t.count; ++j) {
+      const float at = static_cast<float>(t.steps[v * lanes + j]) * t.to_row;
+      const int32_t row = std::min(static_cast<int32_t>(at), t.last_row);
+      const float fraction = std::min(at - static_cast<float>(row), 1.0f);
+      const Lane* low = reinterpret_cast<const Lane*>(t.table[j] + int64_t{row} * t.stride + lane);
+      const Lane* high = reinterpret_cast<const Lane*>(t.table[j] + int64_t{row + 1} * t.stride + lane);
+      for (int k = 0; k < vectors; ++k) sum[k] += low[k] + fraction * (high[k] - low[k]);
+    }
+    for (int k = 0; k < vectors; ++k) out[k] = sum[k];
+  }
+}
+
+FOCAL_INLINE void add_all_lanes(const TileVotes& t) {
+  int32_t lane = 0;
+  for (; lane + 32 <= t.stride; lane += 32) add_tile<4>(t, lane);
+  for (; lane + 16 <= t.stride; lane += 16) add_tile<2>(t, lane);
+  for (; lane < t.stride; lane += 8) add_tile<1>(t, lane);
+}
+FOCAL_MULTIVERSION(void add_lanes(const TileVotes& t), add_all_lanes(t);)
 
 }  // namespace
 
-void add_distribution_votes(const VoteTables& tables, const float* distances, int32_t count,
-                            RowMatrixf& votes, const Execution& execution) {
-  const auto inverse_width = static_cast<float>(1 / tables.bin_width);
-  const auto last = static_cast<float>(tables.bins - 1);
+void add_distribution_votes(const VoteTables& tables, int32_t count, const QuantisedDistances& distances,
+                            int32_t first, RowMatrixf& votes, const Execution& execution) {
   parallel_for_ranges(execution, votes.rows(), 512, [&](int64_t begin, int64_t end) {
-    for (int64_t v = begin; v < end; ++v)
-      for (int32_t j = 0; j < count; ++j) {
-        const float at = std::clamp(distances[v * lanes + j] * inverse_width - 0.5f, 0.0f, last);
-        const auto bin = std::min(static_cast<int32_t>(at), tables.bins - 2);
-        const float* low = tables.of(j) + static_cast<int64_t>(bin) * tables.landmarks;
-        add_interpolated(&votes(v, 0), low, low + tables.landmarks, at - static_cast<float>(bin),
-                         tables.landmarks);
-      }
+    for (int32_t from = 0; from < count; from += tile) {
+      const int64_t sample = first + from;
+      TileVotes t;
+      t.count = std::min(tile, count - from);
+      for (int32_t j = 0; j < t.count; ++j) t.table[j] = tables.of(from + j);
+      t.steps = distances.steps + (sample / lanes * distances.vertices + begin) * lanes + sample % lanes;
+      t.to_row = static_cast<float>(distances.step / tables.width);
+      t.last_row = tables.rows - 2, t.stride = tables.stride();
+      t.votes = &votes(begin, 0), t.vertices = end - begin;
+      add_lanes(t);
+    }
   });
 }
 

@@ -64,8 +64,8 @@ static void check_ranges(void) {
   params.sampling_rate = 1.5;
   CHECK_REFUSED(train_with(&params), FOCAL_ERROR_INVALID_ARGUMENT, "focal_train_params.sampling_rate is 1.5");
   CHECK_OK(focal_train_params_init(&params, sizeof params));
-  params.reserved = 1;
-  CHECK_REFUSED(train_with(&params), FOCAL_ERROR_UNSUPPORTED, "reserved");
+  params.proxy_vertices = -1;
+  CHECK_REFUSED(train_with(&params), FOCAL_ERROR_INVALID_ARGUMENT, "focal_train_params.proxy_vertices is -1");
 }
 
 static void check_context_params(void) {

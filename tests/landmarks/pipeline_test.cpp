@@ -53,7 +53,8 @@ const TrainingSet& training_set() {
 TrainParams small_params(Preset preset = Preset::default_preset) {
   TrainParams params = TrainParams::from_preset(preset);
   params.eigenpair_count = 100;
-  params.sampling_rate = 0.25;
+  params.sampling_rate = 0.5;
+  if (preset == Preset::default_preset) params.proxy_vertices = 1500;
   params.tree_count = 10;
   return params;
 }

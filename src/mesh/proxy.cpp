@@ -1,0 +1,102 @@
+#include "mesh/proxy.h"
+
+#include <meshoptimizer.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "mesh/closest_point.h"
+#include "mesh/nearest_vertex.h"
+
+namespace focal {
+namespace {
+
+constexpr double worth_it = 1.1;     // a surface hardly larger than the proxy is analysed as it is
+constexpr double search_radius = 2;  // in mean edge lengths of the coarse surface
+
+// Triangles over some of the vertices, as many as asked for or a few more.
+TriangleMesh decimate(const TriangleMesh& mesh, int32_t vertices) {
+  const Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> positions = mesh.positions.cast<float>();
+  const auto index_count = static_cast<size_t>(mesh.triangles.size());
+  std::vector<unsigned> indices(mesh.triangles.data(), mesh.triangles.data() + index_count),
+      kept(index_count);
+  const auto target =
+      static_cast<size_t>(static_cast<double>(mesh.triangle_count()) * vertices / mesh.vertex_count());
+  kept.resize(meshopt_simplify(kept.data(), indices.data(), index_count, positions.data(), positions.rows(),
+                               3 * sizeof(float), 3 * std::max<size_t>(target, 8),
+                               std::numeric_limits<float>::max(), 0, nullptr));
+  TriangleMesh result;
+  std::vector<int32_t> number(mesh.vertex_count(), -1), vertex;
+  result.triangles.resize(kept.size() / 3, 3);
+  for (size_t i = 0; i < kept.size(); ++i) {
+    int32_t& v = number[kept[i]];
+    if (v < 0) v = static_cast<int32_t>(vertex.size()), vertex.push_back(static_cast<int32_t>(kept[i]));
+    result.triangles.data()[i] = v;
+  }
+  result.positions = mesh.positions(vertex, Eigen::all);
+  return result;
+}
+
+Vector3 normal_of(const TriangleMesh& mesh, int32_t t) {
+  const Vector3 a = mesh.positions.row(mesh.triangles(t, 0)), b = mesh.positions.row(mesh.triangles(t, 1)),
+                c = mesh.positions.row(mesh.triangles(t, 2));
+  return (b - a).cross(c - a);
+}
+
+}  // namespace
+
+Proxy make_proxy(std::shared_ptr<const PreparedMesh> mesh, int32_t vertices) {
+  if (vertices == 0 || mesh->surface.vertex_count() <= worth_it * vertices) return {mesh, mesh};
+  return {mesh, std::make_shared<const PreparedMesh>(prepare(decimate(mesh->surface, vertices)))};
+}
+
+std::vector<SurfacePoint> to_coarse(const Proxy& proxy, std::span<const SurfacePoint> full_points) {
+  std::vector<SurfacePoint> result(full_points.begin(), full_points.end());
+  if (proxy.is_full()) return result;
+  std::vector<SurfaceQuery> queries;
+  for (const auto& point : full_points)
+    queries.push_back({(position_of(proxy.full->surface, point) - proxy.coarse->centre) / proxy.coarse->scale,
+                       normal_of(proxy.full->surface, point.triangle)});
+  return closest_points(proxy.coarse->surface, queries,
+                        search_radius * mean_edge_length(proxy.coarse->surface));
+}
+
+std::vector<SurfacePoint> to_full(const Proxy& proxy, std::span<const SurfacePoint> coarse_points) {
+  std::vector<SurfacePoint> result(coarse_points.begin(), coarse_points.end());
+  if (proxy.is_full()) return result;
+  const TriangleMesh& coarse = proxy.coarse->surface;
+  std::vector<SurfaceQuery> queries;
+  for (const auto& point : coarse_points)
+    queries.push_back({proxy.coarse->centre + proxy.coarse->scale * position_of(coarse, point),
+                       normal_of(coarse, point.triangle)});
+  return closest_points(proxy.full->surface, queries,
+                        search_radius * mean_edge_length(coarse) * proxy.coarse->scale);
+}
+
+std::vector<SurfacePoint> coarse_place_of_vertices(const Proxy& proxy) {
+  const TriangleMesh& coarse = proxy.coarse->surface;
+  const int32_t n = proxy.full->surface.vertex_count();
+  std::vector<SurfacePoint> result(n);
+  std::vector<std::vector<int32_t>> around(coarse.vertex_count());
+  for (int32_t t = 0; t < coarse.triangle_count(); ++t)
+    for (int i = 0; i < 3; ++i) around[coarse.triangles(t, i)].push_back(t);
+  std::vector<int32_t> all(coarse.vertex_count());
+  for (size_t v = 0; v < all.size(); ++v) all[v] = static_cast<int32_t>(v);
+  const NearestVertex search(coarse.positions, all);
+  for (int32_t v = 0; v < n; ++v) {
+    Vector3 place = proxy.full->surface.positions.row(v);
+    if (!proxy.is_full()) place = (place - proxy.coarse->centre) / proxy.coarse->scale;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const int32_t t : around[search.nearest(place).first]) {
+      Vector3 at[3];
+      for (int i = 0; i < 3; ++i) at[i] = coarse.positions.row(coarse.triangles(t, i));
+      const Vector3 weights = closest_on_triangle(place, at[0], at[1], at[2]);
+      const double squared =
+          (weights[0] * at[0] + weights[1] * at[1] + weights[2] * at[2] - place).squaredNorm();
+      if (squared < nearest) nearest = squared, result[v] = {t, weights};
+    }
+  }
+  return result;
+}
+
+}  // namespace focal
