@@ -67,10 +67,8 @@ void filter_random_columns(const Filter& filter, const ShiftedFactor& factor, co
   }
 }
 
-void filter_columns(const Filter& filter, const ShiftedFactor& factor, const Vector& residuals,
-                    double tolerance, const Vector& lambda, const Columns& X, bool in_float,
-                    const Execution& execution) {
-  const std::vector<int> degrees = choose_degrees(filter, residuals, tolerance, lambda, X.blocks);
+void filter_columns(const Filter& filter, const ShiftedFactor& factor, const std::vector<int>& degrees,
+                    const Vector& lambda, const Columns& X, bool in_float, const Execution& execution) {
   parallel_for(execution, X.blocks, [&](int64_t i) {
     const int b = X.blocks - 1 - static_cast<int>(i);  // the longest first
     if (degrees[b] > 0)
@@ -132,11 +130,16 @@ Eigenbasis chebyshev_eigenpairs(const StandardProblem& problem, const Execution&
     const Filter filter{1 / (last + factor.shift), factor.shift};
     // Float solves as long as they help; where A is too ill-conditioned for them, double ones.
     const bool in_float = round <= 1 || residual < 0.1 * previous;
-    if (round == 0)
+    if (round == 0) {
       filter_random_columns(filter, factor, X, execution);
-    else
-      filter_columns(filter, factor, residuals, problem.tolerance, lambda, X, in_float, execution);
-    lambda = rayleigh_ritz(factor.A, X, round == 0, execution);
+      lambda = rough_rayleigh_ritz(factor.A, X, execution);
+    } else {
+      const auto degrees = choose_degrees(filter, residuals, problem.tolerance, lambda, blocks);
+      filter_columns(filter, factor, degrees, lambda, X, in_float, execution);
+      // Blocks that had converged may stay, once a precise round has made them orthogonal.
+      const auto converged = round == 1 ? 0 : std::count(degrees.begin(), degrees.end(), 0);
+      lambda = rayleigh_ritz(factor.A, X, lambda.head(converged * lanes).eval(), execution);
+    }
     residuals =
         convergence.residuals(residual_norms(factor.A, X, lambda, execution), lambda, factor.shift, count);
     previous = std::exchange(residual, residuals.maxCoeff());

@@ -32,13 +32,13 @@ void for_each_chunk(const Columns& X, const Execution& execution, const Visit& v
   });
 }
 
-// The same with Y, these rows of A X, block after block of chunk_rows rows.
+// The same with Y, these rows of A X, block after block of chunk_rows rows, from block `first` on.
 template <class Visit>
-void for_each_product(const SparseMatrix& A, const Columns& X, const Execution& execution,
+void for_each_product(const SparseMatrix& A, const Columns& X, int first, const Execution& execution,
                       const Visit& visit) {
   for_each_chunk(X, execution, [&](int64_t range, int64_t begin, int64_t end) {
     const AlignedArray<double> Y(chunk_rows * X.count());
-    for (int b = 0; b < X.blocks; ++b)
+    for (int b = first; b < X.blocks; ++b)
       multiply_rows(A, begin, end, X.block(b), Y.data() + b * chunk_rows * lanes);
     visit(range, begin, end, Y.data());
   });
@@ -71,12 +71,14 @@ class TiledSum {
   AlignedArray<T> data_;
 };
 
-// The upper tiles of U^T V, added up over one chunk of rows, block after block of chunk_rows rows.
+// The upper tiles of U^T V from column block `first` on, added up over one chunk of rows, block after block of
+// chunk_rows rows.
 template <class T>
-void add_products(const TiledSum<T>& sum, int64_t range, int blocks, int64_t rows, const T* U, const T* V) {
+void add_products(const TiledSum<T>& sum, int64_t range, int first, int blocks, int64_t rows, const T* U,
+                  const T* V) {
   constexpr int64_t step = chunk_rows * lanes;
   for (int a = 0; a < blocks; ++a)
-    for (int b = a; b < blocks; ++b)
+    for (int b = std::max(a, first); b < blocks; ++b)
       multiply_add(StridedView<T>{U + a * step, 1, lanes}, lanes, rows, V + b * step, sum.tile(range, a, b));
 }
 
@@ -89,36 +91,41 @@ struct Rows {  // of all columns, copied to lie close together
   }
 };
 
-// X^T X.
+// X^T X, the leading blocks up to `first` known to be orthonormal.
 template <class T>
-Matrix gram_matrix(const Columns& X, const Execution& execution) {
+Matrix gram_matrix(const Columns& X, int first, const Execution& execution) {
   const TiledSum<T> sum(X.blocks);
   for_each_chunk(X, execution, [&](int64_t range, int64_t begin, int64_t end) {
     Rows<T> x(X);
     for (int b = 0; b < X.blocks; ++b) x.take(X.block(b) + begin * lanes, b, end - begin);
-    add_products(sum, range, X.blocks, end - begin, x.data.data(), x.data.data());
+    add_products(sum, range, first, X.blocks, end - begin, x.data.data(), x.data.data());
   });
-  return sum.total();
+  Matrix gram = sum.total();
+  gram.topLeftCorner(first * lanes, first * lanes).setIdentity();
+  return gram;
 }
 
-// X^T A X.
+// X^T A X, the leading blocks known to be eigenvectors with the eigenvalues `locked`.
 template <class T>
-Matrix projection(const SparseMatrix& A, const Columns& X, const Execution& execution) {
+Matrix projection(const SparseMatrix& A, const Columns& X, const Vector& locked, const Execution& execution) {
+  const int first = static_cast<int>(locked.size()) / lanes;
   const TiledSum<T> sum(X.blocks);
-  for_each_product(A, X, execution, [&](int64_t range, int64_t begin, int64_t end, const double* Y) {
+  for_each_product(A, X, first, execution, [&](int64_t range, int64_t begin, int64_t end, const double* Y) {
     Rows<T> x(X), y(X);
     for (int b = 0; b < X.blocks; ++b) {
       x.take(X.block(b) + begin * lanes, b, end - begin);
-      y.take(Y + b * chunk_rows * lanes, b, end - begin);
+      if (b >= first) y.take(Y + b * chunk_rows * lanes, b, end - begin);
     }
-    add_products(sum, range, X.blocks, end - begin, x.data.data(), y.data.data());
+    add_products(sum, range, first, X.blocks, end - begin, x.data.data(), y.data.data());
   });
-  return sum.total();
+  Matrix projected = sum.total();
+  projected.topLeftCorner(locked.size(), locked.size()) = locked.asDiagonal();
+  return projected;
 }
 
-// X <- X C.
+// X <- X C, of which the leading blocks up to `first` are left as they are.
 template <class T>
-void rotate(const Columns& X, const Matrix& C, const Execution& execution) {
+void rotate(const Columns& X, const Matrix& C, int first, const Execution& execution) {
   const int64_t p = X.count();
   const AlignedArray<T> panels(p * p);           // C by blocks of columns, each row-major
   std::vector<std::vector<int>> used(X.blocks);  // where C is not 0: half of it when it is triangular
@@ -134,7 +141,7 @@ void rotate(const Columns& X, const Matrix& C, const Execution& execution) {
     const AlignedArray<T> given(rows * p), rotated(rows * lanes);
     for (int b = 0; b < X.blocks; ++b)
       std::copy_n(X.block(b) + begin * lanes, rows * lanes, given.data() + b * rows * lanes);
-    for (int b = 0; b < X.blocks; ++b) {
+    for (int b = first; b < X.blocks; ++b) {
       std::fill_n(rotated.data(), rotated.size(), T{0});
       for (const int a : used[b])
         multiply_add(StridedView<T>{given.data() + a * rows * lanes, lanes, 1}, rows, lanes,
@@ -164,24 +171,40 @@ Orthonormaliser orthonormaliser(const Matrix& gram, bool of_floats) {
   return {unit.asDiagonal() * eigen.eigenvectors() * length.cwiseInverse().asDiagonal(), false};
 }
 
-// X <- X C orthonormal, or ready to be: returns the C that is left to apply. Directions that rounding has left
-// short get their full length first.
+// Returns the C that makes X C orthonormal. Directions that rounding has left short get their full length first.
 template <class T>
-Matrix nearly_orthonormalise(const Columns& X, const Execution& execution) {
+Matrix prepare_orthonormal(const Columns& X, const Execution& execution) {
   for (int attempt = 0;; ++attempt) {
-    const auto [C, complete] = orthonormaliser(gram_matrix<T>(X, execution), std::is_same_v<T, float>);
+    const auto [C, complete] = orthonormaliser(gram_matrix<T>(X, 0, execution), std::is_same_v<T, float>);
     if (complete || attempt == 3) return C;
-    rotate<T>(X, C, execution);
+    rotate<T>(X, C, 0, execution);
   }
 }
 
 template <class T>
-Vector rayleigh_ritz_in(const SparseMatrix& A, const Columns& X, const Execution& execution) {
-  const Matrix C = nearly_orthonormalise<T>(X, execution);
-  const Matrix projected = projection<T>(A, X, execution);
+Vector solve_all(const SparseMatrix& A, const Columns& X, const Execution& execution) {
+  const Matrix C = prepare_orthonormal<T>(X, execution);
+  const Matrix projected = projection<T>(A, X, {}, execution);
   const Eigen::SelfAdjointEigenSolver<Matrix> eigen(C.transpose() * projected * C);
-  rotate<T>(X, C * eigen.eigenvectors(), execution);
+  rotate<T>(X, C * eigen.eigenvectors(), 0, execution);
   return eigen.eigenvalues();
+}
+
+// The columns after the locked ones are made orthogonal to these, and the problem is solved among them.
+Vector solve_rest(const SparseMatrix& A, const Columns& X, const Vector& locked, const Execution& execution) {
+  const int first = static_cast<int>(locked.size()) / lanes;
+  const auto [C, complete] = orthonormaliser(gram_matrix<double>(X, first, execution), false);
+  if (!complete) return solve_all<double>(A, X, execution);
+  Matrix rest = C.rightCols(X.count() - locked.size());
+  const Matrix projected = projection<double>(A, X, locked, execution);
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(rest.transpose() * projected * rest);
+  Matrix all = Matrix::Zero(X.count(), X.count());
+  all.rightCols(rest.cols()) = rest * eigen.eigenvectors();
+  rotate<double>(X, all, first, execution);
+  Vector lambda(X.count());
+  lambda << locked, eigen.eigenvalues();
+  if (lambda(locked.size()) < locked(locked.size() - 1)) return solve_all<double>(A, X, execution);
+  return lambda;
 }
 
 }  // namespace
@@ -192,17 +215,22 @@ Columns::Columns(int64_t rows, int block_count)
 }
 
 void orthonormalise_roughly(const Columns& X, const Execution& execution) {
-  rotate<float>(X, nearly_orthonormalise<float>(X, execution), execution);
+  rotate<float>(X, prepare_orthonormal<float>(X, execution), 0, execution);
 }
 
-Vector rayleigh_ritz(const SparseMatrix& A, const Columns& X, bool in_float, const Execution& execution) {
-  return in_float ? rayleigh_ritz_in<float>(A, X, execution) : rayleigh_ritz_in<double>(A, X, execution);
+Vector rough_rayleigh_ritz(const SparseMatrix& A, const Columns& X, const Execution& execution) {
+  return solve_all<float>(A, X, execution);
+}
+
+Vector rayleigh_ritz(const SparseMatrix& A, const Columns& X, const Vector& locked,
+                     const Execution& execution) {
+  return locked.size() > 0 ? solve_rest(A, X, locked, execution) : solve_all<double>(A, X, execution);
 }
 
 Vector residual_norms(const SparseMatrix& A, const Columns& X, const Vector& lambda,
                       const Execution& execution) {
   RowMatrix squared = RowMatrix::Zero(range_count, X.count());
-  for_each_product(A, X, execution, [&](int64_t range, int64_t begin, int64_t end, const double* Y) {
+  for_each_product(A, X, 0, execution, [&](int64_t range, int64_t begin, int64_t end, const double* Y) {
     for (int b = 0; b < X.blocks; ++b) {
       const Eigen::Map<const RowMatrix> x(X.block(b) + begin * lanes, end - begin, lanes);
       const Eigen::Map<const RowMatrix> y(Y + b * chunk_rows * lanes, end - begin, lanes);
