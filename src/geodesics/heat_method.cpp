@@ -84,7 +84,7 @@ HeatMethod::HeatMethod(const TriangleMesh& mesh, const Operators& operators, con
   heat_ = SparseCholesky(plus_diagonal(time_ * operators.L, operators.mass));
   execution.check_cancelled();
   // The shift makes L definite. The constant mode is amplified by its inverse: 1e-6 leaves the float solve five digits.
-  poisson_ = SparseCholesky(plus_diagonal(operators.L, 1e-6 / operators.area * operators.mass));
+  poisson_ = SparseCholesky(plus_diagonal(operators.L, 1e-6 / operators.area * operators.mass), heat_);
   execution.check_cancelled();
   const auto& permutation = heat_.permutation();
   if (permutation != poisson_.permutation())

@@ -12,19 +12,19 @@ constexpr int lanes = 32;
 
 // Four rows by four vectors of C stay in registers while the inner index runs (two rows where registers are
 // few).
-template <int vector_bytes>
-FOCAL_INLINE void multiply_add_body(const StridedView& A, int64_t rows, int64_t inner, const double* B,
-                                    double* C) {
-  typedef double Lane __attribute__((vector_size(vector_bytes), may_alias));
-  constexpr int height = vector_bytes == 64 ? 4 : 2, vectors = 4;
-  constexpr int width = vectors * vector_bytes / int{sizeof(double)};
+template <int vector_bytes, class T>
+FOCAL_INLINE void multiply_add_body(const StridedView<T>& A, int64_t rows, int64_t inner, const T* B, T* C) {
+  typedef T Lane __attribute__((vector_size(vector_bytes), may_alias));
+  constexpr int height = vector_bytes == 64 ? 4 : 2;
+  constexpr int vectors = std::min<int>(4, lanes * sizeof(T) / vector_bytes);
+  constexpr int width = vectors * vector_bytes / int{sizeof(T)};
   for (int lane = 0; lane < lanes; lane += width) {
     for (int64_t r = 0; r < rows; r += height) {
       const auto c = [&](int h) { return reinterpret_cast<Lane*>(C + (r + h) * lanes + lane); };
       Lane sum[height][vectors];
       for (int h = 0; h < height; ++h)
         for (int v = 0; v < vectors; ++v) sum[h][v] = c(h)[v];
-      const double* a = A.data + r * A.row_step;
+      const T* a = A.data + r * A.row_step;
       for (int64_t l = 0; l < inner; ++l, a += A.inner_step) {
         const Lane* b = reinterpret_cast<const Lane*>(B + l * lanes + lane);
         for (int h = 0; h < height; ++h)
@@ -55,8 +55,11 @@ FOCAL_INLINE void multiply_rows_body(const SparseMatrix& A, int64_t begin, int64
   }
 }
 
-FOCAL_MULTIVERSION(void multiply_add_lanes(const StridedView& A, int64_t rows, int64_t inner, const double* B,
-                                           double* C),
+FOCAL_MULTIVERSION(void multiply_add_lanes(const StridedView<double>& A, int64_t rows, int64_t inner,
+                                           const double* B, double* C),
+                   multiply_add_body<vector_bytes>(A, rows, inner, B, C);)
+FOCAL_MULTIVERSION(void multiply_add_lanes(const StridedView<float>& A, int64_t rows, int64_t inner,
+                                           const float* B, float* C),
                    multiply_add_body<vector_bytes>(A, rows, inner, B, C);)
 FOCAL_MULTIVERSION(void multiply_rows_lanes(const SparseMatrix& A, int64_t begin, int64_t end,
                                             const double* X, double* Y),
@@ -64,7 +67,11 @@ FOCAL_MULTIVERSION(void multiply_rows_lanes(const SparseMatrix& A, int64_t begin
 
 }  // namespace
 
-void multiply_add(const StridedView& A, int64_t rows, int64_t inner, const double* B, double* C) {
+void multiply_add(const StridedView<double>& A, int64_t rows, int64_t inner, const double* B, double* C) {
+  multiply_add_lanes(A, rows, inner, B, C);
+}
+
+void multiply_add(const StridedView<float>& A, int64_t rows, int64_t inner, const float* B, float* C) {
   multiply_add_lanes(A, rows, inner, B, C);
 }
 

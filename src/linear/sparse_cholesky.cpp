@@ -1,14 +1,10 @@
-// Sparse Cholesky with blocked solves. Factorisation: Eigen's SimplicialLLT (up-looking, after Davis, "Direct
-// Methods for Sparse Linear Systems", 2006), ordered after Amestoy, Davis, Duff, "An approximate minimum
-// degree ordering", 1996.
 #include "linear/sparse_cholesky.h"
 
-#include <Eigen/SparseCholesky>
 #include <algorithm>
-#include <cmath>
+#include <numeric>
 
-#include "base/error.h"
 #include "base/multiversion.h"
+#include "linear/multifrontal.h"
 
 namespace focal {
 namespace {
@@ -64,48 +60,53 @@ FOCAL_MULTIVERSION(void solve_lanes(const Triangle<double>& rows, const Triangle
 FOCAL_MULTIVERSION(void solve_lanes(const Triangle<float>& rows, const Triangle<float>& columns, float* X),
                    solve_both<vector_bytes>(rows, columns, X);)
 
-[[noreturn]] void throw_indefinite() {
-  throw Error(Status::not_converged,
-              "a matrix of the mesh is not positive definite, so it cannot be factored",
-              "the mesh may hold degenerate or non-finite triangles; repair it first");
-}
-
 }  // namespace
 
-SparseCholesky::SparseCholesky(const SparseMatrix& A) {
-  const Eigen::SimplicialLLT<SparseMatrix, Eigen::Lower, Eigen::AMDOrdering<int32_t>> llt(A);
-  if (llt.info() != Eigen::Success) throw_indefinite();
-  const auto& order = llt.permutationP().indices();
-  permutation_.assign(order.data(), order.data() + order.size());
-  set_factor(llt.matrixL().nestedExpression());
+SparseCholesky::SparseCholesky(const SparseMatrix& A)
+    : SparseCholesky(A, std::make_shared<const SymbolicFactor>(analyse_pattern(A))) {}
+
+SparseCholesky::SparseCholesky(const SparseMatrix& A, const SparseCholesky& same_pattern)
+    : SparseCholesky(A, same_pattern.symbolic_) {}
+
+SparseCholesky::SparseCholesky(const SparseMatrix& A, std::shared_ptr<const SymbolicFactor> symbolic)
+    : symbolic_(std::move(symbolic)) {
+  set_factor(factorise(*symbolic_, A));
 }
 
-void SparseCholesky::set_factor(const SparseMatrix& G) {
-  const auto n = static_cast<int32_t>(G.cols());
+// From panels to rows and columns, without the zeros that only make panels wider.
+void SparseCholesky::set_factor(const std::vector<double>& panels) {
+  const auto for_each = [&](const auto& visit) {  // entries (i, j), j from first to last
+    for (int32_t s = 0; s < symbolic_->supernodes(); ++s) {
+      const int32_t first = symbolic_->first_column[s], width = symbolic_->width(s);
+      const int32_t* rows = symbolic_->rows.data() + symbolic_->row_start[s];
+      const int64_t size = width + symbolic_->row_count(s);
+      const double* column = panels.data() + symbolic_->value_start[s];
+      for (int32_t k = 0; k < width; ++k, column += size)
+        for (int64_t i = k; i < size; ++i)
+          if (column[i] != 0)
+            visit(i < width ? first + static_cast<int32_t>(i) : rows[i - width], first + k, column[i]);
+    }
+  };
+  const int32_t n = size();
   inverse_diagonal_.resize(n);
   rows_.start.assign(n + 1, 0), columns_.start.assign(n + 1, 0);
-  for (int32_t j = 0; j < n; ++j) {
-    for (SparseMatrix::InnerIterator entry(G, j); entry; ++entry) {
-      if (entry.row() == j) {
-        inverse_diagonal_[j] = 1 / entry.value();
-        if (!(inverse_diagonal_[j] > 0 && std::isfinite(inverse_diagonal_[j]))) throw_indefinite();
-        continue;
-      }
-      columns_.index.push_back(static_cast<int32_t>(entry.row()));
-      columns_.value.push_back(entry.value());
-      ++rows_.start[entry.row() + 1];
-    }
-    columns_.start[j + 1] = static_cast<int64_t>(columns_.index.size());
-  }
-  for (int32_t i = 0; i < n; ++i) rows_.start[i + 1] += rows_.start[i];
-  rows_.index.resize(columns_.index.size()), rows_.value.resize(columns_.index.size());
+  for_each(
+      [&](int32_t i, int32_t j, double) { rows_.start[i + 1] += i != j, columns_.start[j + 1] += i != j; });
+  std::partial_sum(rows_.start.begin(), rows_.start.end(), rows_.start.begin());
+  std::partial_sum(columns_.start.begin(), columns_.start.end(), columns_.start.begin());
+  for (Rows* side : {&rows_, &columns_})
+    side->index.resize(side->start[n]), side->value.resize(side->start[n]);
   std::vector<int64_t> next(rows_.start.begin(), rows_.start.end() - 1);
-  for (int32_t j = 0; j < n; ++j) {
-    for (int64_t p = columns_.start[j]; p < columns_.start[j + 1]; ++p) {
-      const int64_t q = next[columns_.index[p]]++;
-      rows_.index[q] = j, rows_.value[q] = columns_.value[p];
+  int64_t p = 0;
+  for_each([&](int32_t i, int32_t j, double value) {
+    if (i == j) {
+      inverse_diagonal_[j] = 1 / value;
+      return;
     }
-  }
+    const int64_t q = next[i]++;
+    rows_.index[q] = j, rows_.value[q] = value;
+    columns_.index[p] = i, columns_.value[p++] = value;
+  });
   rows_.value_f.assign(rows_.value.begin(), rows_.value.end());
   columns_.value_f.assign(columns_.value.begin(), columns_.value.end());
   inverse_diagonal_f_.assign(inverse_diagonal_.begin(), inverse_diagonal_.end());
@@ -127,7 +128,7 @@ void SparseCholesky::solve_block(float* X) const {
 // subtractions.
 Vector SparseCholesky::solve(const Vector& b) const {
   Vector x(size());
-  for (int32_t i = 0; i < size(); ++i) x(permutation_[i]) = b(i);
+  for (int32_t i = 0; i < size(); ++i) x(permutation()[i]) = b(i);
   const auto finish_row = [&](const Rows& needed_by, int32_t i) {
     const double solved = x(i) *= inverse_diagonal_[i];
     for (int64_t p = needed_by.start[i]; p < needed_by.start[i + 1]; ++p)
@@ -136,7 +137,7 @@ Vector SparseCholesky::solve(const Vector& b) const {
   for (int32_t i = 0; i < size(); ++i) finish_row(columns_, i);
   for (int32_t i = size() - 1; i >= 0; --i) finish_row(rows_, i);
   Vector out(size());
-  for (int32_t i = 0; i < size(); ++i) out(i) = x(permutation_[i]);
+  for (int32_t i = 0; i < size(); ++i) out(i) = x(permutation()[i]);
   return out;
 }
 

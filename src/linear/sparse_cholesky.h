@@ -1,9 +1,11 @@
 // A sparse Cholesky factor made once and used for many right-hand sides at a time.
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "base/matrix.h"
+#include "linear/symbolic_factor.h"
 
 namespace focal {
 
@@ -18,11 +20,15 @@ class SparseCholesky {
   SparseCholesky() = default;
   // Only the lower triangle of A is read. Throws not_converged when A is not positive definite.
   explicit SparseCholesky(const SparseMatrix& A);
+  // The same for an A with entries in the same places as that of `same_pattern`, or in some of them: its order
+  // and analysis are shared.
+  SparseCholesky(const SparseMatrix& A, const SparseCholesky& same_pattern);
+  SparseCholesky(const SparseMatrix& A, std::shared_ptr<const SymbolicFactor> symbolic);
 
-  int32_t size() const { return static_cast<int32_t>(permutation_.size()); }
+  int32_t size() const { return symbolic_ ? symbolic_->size() : 0; }
   int64_t nonzeros() const { return static_cast<int64_t>(rows_.index.size()) + size(); }
   // permutation()[old] = new: rows of the blocks below are in the new order.
-  const std::vector<int32_t>& permutation() const { return permutation_; }
+  const std::vector<int32_t>& permutation() const { return symbolic_->permutation; }
 
   // Solves A X = B in place for `lanes` sides, rows in the permuted order; X holds size() * lanes numbers,
   // 64-byte aligned. Thread-safe. The float version rounds the factor to float.
@@ -39,9 +45,9 @@ class SparseCholesky {
     std::vector<double> value;
     std::vector<float> value_f;
   };
-  void set_factor(const SparseMatrix& G);
+  void set_factor(const std::vector<double>& panels);
 
-  std::vector<int32_t> permutation_;
+  std::shared_ptr<const SymbolicFactor> symbolic_;
   Rows rows_, columns_;  // G and G^T
   std::vector<double> inverse_diagonal_;
   std::vector<float> inverse_diagonal_f_;

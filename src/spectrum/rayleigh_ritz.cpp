@@ -7,6 +7,8 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <limits>
+#include <type_traits>
+#include <vector>
 
 #include "linear/block_kernels.h"
 
@@ -17,84 +19,135 @@ constexpr int lanes = Columns::lanes;
 constexpr int64_t tile_size = lanes * lanes;
 constexpr int64_t chunk_rows = 64, range_count = 16;
 
-// Calls visit(range, begin, end, Y) for chunks of rows; Y holds these rows of A X, block after block of
-// chunk_rows rows.
+// Calls visit(range, begin, end) for chunks of rows, the ranges in parallel.
 template <class Visit>
-void for_each_product(const SparseMatrix& A, const Columns& X, const Execution& execution,
-                      const Visit& visit) {
+void for_each_chunk(const Columns& X, const Execution& execution, const Visit& visit) {
   const int64_t length = (X.n + range_count - 1) / range_count;
   parallel_for(execution, range_count, [&](int64_t range) {
-    const AlignedArray<double> Y(chunk_rows * X.count());
     const int64_t range_end = std::min(X.n, (range + 1) * length);
     for (int64_t begin = range * length; begin < range_end; begin += chunk_rows) {
       execution.check_cancelled();
-      const int64_t end = std::min(range_end, begin + chunk_rows);
-      for (int b = 0; b < X.blocks; ++b)
-        multiply_rows(A, begin, end, X.block(b), Y.data() + b * chunk_rows * lanes);
-      visit(range, begin, end, Y.data());
+      visit(range, begin, std::min(range_end, begin + chunk_rows));
     }
+  });
+}
+
+// The same with Y, these rows of A X, block after block of chunk_rows rows, from block `first` on.
+template <class Visit>
+void for_each_product(const SparseMatrix& A, const Columns& X, int first, const Execution& execution,
+                      const Visit& visit) {
+  for_each_chunk(X, execution, [&](int64_t range, int64_t begin, int64_t end) {
+    const AlignedArray<double> Y(chunk_rows * X.count());
+    for (int b = first; b < X.blocks; ++b)
+      multiply_rows(A, begin, end, X.block(b), Y.data() + b * chunk_rows * lanes);
+    visit(range, begin, end, Y.data());
   });
 }
 
 // A symmetric matrix as a sum over the ranges, each kept in tiles of 32 x 32, of which those with a <= b are
 // filled.
+template <class T>
 class TiledSum {
  public:
   explicit TiledSum(int blocks) : blocks_(blocks), data_(range_count * blocks * blocks * tile_size) {
-    std::fill_n(data_.data(), data_.size(), 0.0);
+    std::fill_n(data_.data(), data_.size(), T{0});
   }
-  double* tile(int64_t range, int a, int b) const {
+  T* tile(int64_t range, int a, int b) const {
     return data_.data() + ((range * blocks_ + a) * blocks_ + b) * tile_size;
   }
   Matrix total() const {
+    using Tile = Eigen::Matrix<T, lanes, lanes, Eigen::RowMajor>;
     Matrix sum = Matrix::Zero(blocks_ * lanes, blocks_ * lanes);
-    for (int64_t range = 0; range < range_count; ++range)
-      for (int a = 0; a < blocks_; ++a)
-        for (int b = a; b < blocks_; ++b)
+    for (int a = 0; a < blocks_; ++a)
+      for (int b = a; b < blocks_; ++b)
+        for (int64_t range = 0; range < range_count; ++range)
           sum.block<lanes, lanes>(a * lanes, b * lanes) +=
-              Eigen::Map<const Eigen::Matrix<double, lanes, lanes, Eigen::RowMajor>>(tile(range, a, b));
+              Eigen::Map<const Tile>(tile(range, a, b)).template cast<double>();
     return sum.selfadjointView<Eigen::Upper>();
   }
 
  private:
   int blocks_;
-  AlignedArray<double> data_;
+  AlignedArray<T> data_;
 };
 
-struct Projection {
-  Matrix gram, projected;  // X^T X and X^T A X
-};
-
-Projection project(const SparseMatrix& A, const Columns& X, const Execution& execution) {
-  const TiledSum gram(X.blocks), projected(X.blocks);
-  for_each_product(A, X, execution, [&](int64_t range, int64_t begin, int64_t end, const double* Y) {
-    for (int a = 0; a < X.blocks; ++a) {
-      const StridedView transposed{X.block(a) + begin * lanes, 1, lanes};
-      for (int b = a; b < X.blocks; ++b) {
-        multiply_add(transposed, lanes, end - begin, X.block(b) + begin * lanes, gram.tile(range, a, b));
-        multiply_add(transposed, lanes, end - begin, Y + b * chunk_rows * lanes, projected.tile(range, a, b));
-      }
-    }
-  });
-  return {gram.total(), projected.total()};
+// The upper tiles of U^T V from column block `first` on, added up over one chunk of rows, block after block of
+// chunk_rows rows.
+template <class T>
+void add_products(const TiledSum<T>& sum, int64_t range, int first, int blocks, int64_t rows, const T* U,
+                  const T* V) {
+  constexpr int64_t step = chunk_rows * lanes;
+  for (int a = 0; a < blocks; ++a)
+    for (int b = std::max(a, first); b < blocks; ++b)
+      multiply_add(StridedView<T>{U + a * step, 1, lanes}, lanes, rows, V + b * step, sum.tile(range, a, b));
 }
 
-// X <- X C.
-void rotate(const Columns& X, const Matrix& C, const Execution& execution) {
+template <class T>
+struct Rows {  // of all columns, copied to lie close together
+  AlignedArray<T> data;
+  explicit Rows(const Columns& X) : data(chunk_rows * X.count()) {}
+  void take(const double* from, int b, int64_t rows) {
+    std::copy_n(from, rows * lanes, data.data() + b * chunk_rows * lanes);
+  }
+};
+
+// X^T X, the leading blocks up to `first` known to be orthonormal.
+template <class T>
+Matrix gram_matrix(const Columns& X, int first, const Execution& execution) {
+  const TiledSum<T> sum(X.blocks);
+  for_each_chunk(X, execution, [&](int64_t range, int64_t begin, int64_t end) {
+    Rows<T> x(X);
+    for (int b = 0; b < X.blocks; ++b) x.take(X.block(b) + begin * lanes, b, end - begin);
+    add_products(sum, range, first, X.blocks, end - begin, x.data.data(), x.data.data());
+  });
+  Matrix gram = sum.total();
+  gram.topLeftCorner(first * lanes, first * lanes).setIdentity();
+  return gram;
+}
+
+// X^T A X, the leading blocks known to be eigenvectors with the eigenvalues `locked`.
+template <class T>
+Matrix projection(const SparseMatrix& A, const Columns& X, const Vector& locked, const Execution& execution) {
+  const int first = static_cast<int>(locked.size()) / lanes;
+  const TiledSum<T> sum(X.blocks);
+  for_each_product(A, X, first, execution, [&](int64_t range, int64_t begin, int64_t end, const double* Y) {
+    Rows<T> x(X), y(X);
+    for (int b = 0; b < X.blocks; ++b) {
+      x.take(X.block(b) + begin * lanes, b, end - begin);
+      if (b >= first) y.take(Y + b * chunk_rows * lanes, b, end - begin);
+    }
+    add_products(sum, range, first, X.blocks, end - begin, x.data.data(), y.data.data());
+  });
+  Matrix projected = sum.total();
+  projected.topLeftCorner(locked.size(), locked.size()) = locked.asDiagonal();
+  return projected;
+}
+
+// X <- X C, of which the leading blocks up to `first` are left as they are.
+template <class T>
+void rotate(const Columns& X, const Matrix& C, int first, const Execution& execution) {
   const int64_t p = X.count();
-  const AlignedArray<double> panels(p * p);  // C by blocks of columns, each row-major
+  const AlignedArray<T> panels(p * p);           // C by blocks of columns, each row-major
+  std::vector<std::vector<int>> used(X.blocks);  // where C is not 0: half of it when it is triangular
   for (int b = 0; b < X.blocks; ++b)
-    Eigen::Map<RowMatrix>(panels.data() + b * p * lanes, p, lanes) = C.middleCols(b * lanes, lanes);
+    for (int a = 0; a < X.blocks; ++a)
+      if (!C.block<lanes, lanes>(a * lanes, b * lanes).isZero(0)) used[b].push_back(a);
+  for (int b = 0; b < X.blocks; ++b)
+    for (int64_t i = 0; i < p; ++i)
+      for (int j = 0; j < lanes; ++j)
+        panels.data()[(b * p + i) * lanes + j] = static_cast<T>(C(i, b * lanes + j));
   parallel_for_ranges(execution, X.stride, chunk_rows, [&](int64_t begin, int64_t end) {
-    const AlignedArray<double> rotated((end - begin) * p);
-    std::fill_n(rotated.data(), rotated.size(), 0.0);
-    const auto target = [&](int b) { return rotated.data() + b * (end - begin) * lanes; };
+    const int64_t rows = end - begin;
+    const AlignedArray<T> given(rows * p), rotated(rows * lanes);
     for (int b = 0; b < X.blocks; ++b)
-      for (int a = 0; a < X.blocks; ++a)
-        multiply_add({X.block(a) + begin * lanes, lanes, 1}, end - begin, lanes,
-                     panels.data() + (b * p + a * lanes) * lanes, target(b));
-    for (int b = 0; b < X.blocks; ++b)
-      std::copy_n(target(b), (end - begin) * lanes, X.block(b) + begin * lanes);
+      std::copy_n(X.block(b) + begin * lanes, rows * lanes, given.data() + b * rows * lanes);
+    for (int b = first; b < X.blocks; ++b) {
+      std::fill_n(rotated.data(), rotated.size(), T{0});
+      for (const int a : used[b])
+        multiply_add(StridedView<T>{given.data() + a * rows * lanes, lanes, 1}, rows, lanes,
+                     panels.data() + (b * p + a * lanes) * lanes, rotated.data());
+      std::copy_n(rotated.data(), rows * lanes, X.block(b) + begin * lanes);
+    }
   });
 }
 
@@ -106,15 +159,52 @@ struct Orthonormaliser {
   bool complete;
 };
 
-Orthonormaliser orthonormaliser(const Matrix& gram) {
+Orthonormaliser orthonormaliser(const Matrix& gram, bool of_floats) {
   const Vector unit = gram.diagonal().cwiseMax(std::numeric_limits<double>::min()).cwiseSqrt().cwiseInverse();
   const Matrix G = unit.asDiagonal() * gram * unit.asDiagonal();
   const Eigen::LLT<Matrix> llt(G);
-  if (llt.info() == Eigen::Success && llt.matrixLLT().diagonal().minCoeff() > 1e-7)
+  if (llt.info() == Eigen::Success && llt.matrixLLT().diagonal().minCoeff() > (of_floats ? 1e-3 : 1e-7))
     return {unit.asDiagonal() * Matrix(llt.matrixU().solve(Matrix::Identity(G.rows(), G.cols()))), true};
   const Eigen::SelfAdjointEigenSolver<Matrix> eigen(G);
-  const Vector length = eigen.eigenvalues().cwiseMax(1e-12 * eigen.eigenvalues().maxCoeff()).cwiseSqrt();
+  const double shortest = (of_floats ? 1e-6 : 1e-12) * eigen.eigenvalues().maxCoeff();
+  const Vector length = eigen.eigenvalues().cwiseMax(shortest).cwiseSqrt();
   return {unit.asDiagonal() * eigen.eigenvectors() * length.cwiseInverse().asDiagonal(), false};
+}
+
+// Returns the C that makes X C orthonormal. Directions that rounding has left short get their full length first.
+template <class T>
+Matrix prepare_orthonormal(const Columns& X, const Execution& execution) {
+  for (int attempt = 0;; ++attempt) {
+    const auto [C, complete] = orthonormaliser(gram_matrix<T>(X, 0, execution), std::is_same_v<T, float>);
+    if (complete || attempt == 3) return C;
+    rotate<T>(X, C, 0, execution);
+  }
+}
+
+template <class T>
+Vector solve_all(const SparseMatrix& A, const Columns& X, const Execution& execution) {
+  const Matrix C = prepare_orthonormal<T>(X, execution);
+  const Matrix projected = projection<T>(A, X, {}, execution);
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(C.transpose() * projected * C);
+  rotate<T>(X, C * eigen.eigenvectors(), 0, execution);
+  return eigen.eigenvalues();
+}
+
+// The columns after the locked ones are made orthogonal to these, and the problem is solved among them.
+Vector solve_rest(const SparseMatrix& A, const Columns& X, const Vector& locked, const Execution& execution) {
+  const int first = static_cast<int>(locked.size()) / lanes;
+  const auto [C, complete] = orthonormaliser(gram_matrix<double>(X, first, execution), false);
+  if (!complete) return solve_all<double>(A, X, execution);
+  Matrix rest = C.rightCols(X.count() - locked.size());
+  const Matrix projected = projection<double>(A, X, locked, execution);
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(rest.transpose() * projected * rest);
+  Matrix all = Matrix::Zero(X.count(), X.count());
+  all.rightCols(rest.cols()) = rest * eigen.eigenvectors();
+  rotate<double>(X, all, first, execution);
+  Vector lambda(X.count());
+  lambda << locked, eigen.eigenvalues();
+  if (lambda(locked.size()) < locked(locked.size() - 1)) return solve_all<double>(A, X, execution);
+  return lambda;
 }
 
 }  // namespace
@@ -124,24 +214,23 @@ Columns::Columns(int64_t rows, int block_count)
   std::fill_n(data.data(), data.size(), 0.0);
 }
 
-Vector rayleigh_ritz(const SparseMatrix& A, const Columns& X, const Execution& execution) {
-  for (int attempt = 0;; ++attempt) {
-    const auto [gram, projected] = project(A, X, execution);
-    const auto [C, complete] = orthonormaliser(gram);
-    if (!complete && attempt < 3) {  // short directions get their full length in the next attempt
-      rotate(X, C, execution);
-      continue;
-    }
-    const Eigen::SelfAdjointEigenSolver<Matrix> eigen(C.transpose() * projected * C);
-    rotate(X, C * eigen.eigenvectors(), execution);
-    return eigen.eigenvalues();
-  }
+void orthonormalise_roughly(const Columns& X, const Execution& execution) {
+  rotate<float>(X, prepare_orthonormal<float>(X, execution), 0, execution);
+}
+
+Vector rough_rayleigh_ritz(const SparseMatrix& A, const Columns& X, const Execution& execution) {
+  return solve_all<float>(A, X, execution);
+}
+
+Vector rayleigh_ritz(const SparseMatrix& A, const Columns& X, const Vector& locked,
+                     const Execution& execution) {
+  return locked.size() > 0 ? solve_rest(A, X, locked, execution) : solve_all<double>(A, X, execution);
 }
 
 Vector residual_norms(const SparseMatrix& A, const Columns& X, const Vector& lambda,
                       const Execution& execution) {
   RowMatrix squared = RowMatrix::Zero(range_count, X.count());
-  for_each_product(A, X, execution, [&](int64_t range, int64_t begin, int64_t end, const double* Y) {
+  for_each_product(A, X, 0, execution, [&](int64_t range, int64_t begin, int64_t end, const double* Y) {
     for (int b = 0; b < X.blocks; ++b) {
       const Eigen::Map<const RowMatrix> x(X.block(b) + begin * lanes, end - begin, lanes);
       const Eigen::Map<const RowMatrix> y(Y + b * chunk_rows * lanes, end - begin, lanes);

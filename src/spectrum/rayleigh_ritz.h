@@ -19,9 +19,16 @@ struct Columns {
   double operator()(int64_t i, int j) const { return block(j / lanes)[i * lanes + j % lanes]; }
 };
 
+// Makes X orthonormal to the precision of float.
+void orthonormalise_roughly(const Columns& X, const Execution& execution);
+
 // Replaces X by approximate eigenvectors of the symmetric A, unit and orthogonal; returns their eigenvalues,
-// ascending.
-Vector rayleigh_ritz(const SparseMatrix& A, const Columns& X, const Execution& execution);
+// ascending. The leading blocks, whole, that have converged already are left as they are: `locked` are their
+// eigenvalues.
+Vector rayleigh_ritz(const SparseMatrix& A, const Columns& X, const Vector& locked,
+                     const Execution& execution);
+// The same with float sums, in half the time, for columns that are filtered again.
+Vector rough_rayleigh_ritz(const SparseMatrix& A, const Columns& X, const Execution& execution);
 
 // |A x - lambda x| of each column.
 Vector residual_norms(const SparseMatrix& A, const Columns& X, const Vector& lambda,

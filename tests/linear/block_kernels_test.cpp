@@ -33,7 +33,8 @@ TEST_CASE("C += A B and C += A^T B") {
                   C = random_matrix(36, lanes, 3);
   const RowMatrix transposed = A.transpose();
   const auto b = aligned_copy(B);
-  for (const StridedView& view : {StridedView{A.data(), 19, 1}, StridedView{transposed.data(), 1, 36}}) {
+  for (const StridedView<double>& view :
+       {StridedView<double>{A.data(), 19, 1}, StridedView<double>{transposed.data(), 1, 36}}) {
     const auto c = aligned_copy(C);
     multiply_add(view, 36, 19, b.data(), c.data());
     const Eigen::Map<const RowMatrix> result(c.data(), 36, lanes);

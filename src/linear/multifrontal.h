@@ -1,0 +1,13 @@
+// The numbers of a sparse Cholesky factor.
+#pragma once
+#include <vector>
+
+#include "linear/symbolic_factor.h"
+
+namespace focal {
+
+// The panels of G, P A P^T = G G^T (see SymbolicFactor). Only the lower triangle of A is read; it may have
+// fewer entries than the matrix that was analysed. Throws not_converged when A is not positive definite.
+std::vector<double> factorise(const SymbolicFactor& symbolic, const SparseMatrix& A);
+
+}  // namespace focal

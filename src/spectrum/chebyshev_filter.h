@@ -1,0 +1,38 @@
+// Chebyshev polynomials of the shifted inverse, applied to 32 columns at a time.
+#pragma once
+#include "base/parallel.h"
+#include "linear/sparse_cholesky.h"
+
+namespace focal {
+
+// A + shift I, factored; A in the order of the factor, which does not depend on the shift.
+struct ShiftedFactor {
+  double shift;
+  SparseCholesky cholesky;
+  SparseMatrix A;
+
+  ShiftedFactor(const SparseMatrix& original, double shift);
+  // The same matrix with another shift.
+  ShiftedFactor with_shift(const SparseMatrix& original, double shift) const;
+};
+
+// T_degree(2 nu / cut - 1), nu = 1 / (lambda + shift): at most 1 for nu below the cut, growing fast above.
+struct Filter {
+  double cut, shift;
+
+  double argument(double lambda) const { return 2 / (cut * (lambda + shift)) - 1; }
+  // The degree at which the filter grows by this much at lambda, and its growth a degree, as a logarithm.
+  double degree_to_grow(double growth, double lambda) const;
+  double rate(double lambda) const;
+};
+
+// The first round, on random columns: x <- T_degree x, in float.
+void filter_random(const Filter& filter, int degree, const ShiftedFactor& factor, double* block,
+                   const Execution& execution);
+
+// Later rounds, on Ritz pairs (lambda, x): x <- T_degree x / T_degree(argument(lambda)), with float solves or
+// double ones. Either is exact for x that are eigenvectors.
+void filter_ritz_pairs(const Filter& filter, int degree, const ShiftedFactor& factor, const double* lambda,
+                       double* block, bool in_float, const Execution& execution);
+
+}  // namespace focal
