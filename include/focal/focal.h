@@ -279,9 +279,10 @@ enum {
 
 typedef struct focal_train_params {
   uint32_t struct_size;
-  focal_preset preset;           /* which method; kept in the model, detection follows it */
-  int32_t eigenpair_count;       /* of the Laplacian, 8..2000; fewer on tiny meshes. Default 200 */
-  int32_t tree_count;            /* a forest, 1..10000. Default 30 */
+  focal_preset preset; /* which method; kept in the model, detection follows it */
+  int32_t
+      eigenpair_count; /* of the Laplacian, 8..2000; fewer on tiny meshes. Default 128; preset paper: 200 */
+  int32_t tree_count;  /* a forest, 1..10000. Default 30 */
   int32_t min_leaf_samples;      /* 1 or more. Default 5 */
   int32_t components_per_split;  /* random descriptor components tried at each split, 1 or more. Default 5 */
   double sampling_rate;          /* of the vertices analysed of each training mesh, above 0 to 1. Default 1 */

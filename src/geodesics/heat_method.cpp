@@ -43,32 +43,52 @@ SparseMatrix plus_diagonal(SparseMatrix A, const Vector& diagonal) {
   return A;
 }
 
-// Right-hand side of the Poisson equation for one triangle and all lanes. With u the heat, L_f the triangle's Laplacian
-// and g the gradient, X = -g / |g| has integrated divergence L_f u / |g| at the corners, so no 3D vector is formed; and
+// Right-hand side of the Poisson equation, all triangles and lanes. With u the heat, L_f the triangle's Laplacian and g
+// the gradient, X = -g / |g| has integrated divergence L_f u / |g| at the corners, so no 3D vector is formed; and
 // |g|^2 = u^T L_f u / area. u is first divided by its largest corner, which keeps tiny heat far away exact.
-FOCAL_INLINE void face_body(const double* u0, const double* u1, const double* u2, const float* coefficient,
-                            bool keep_negative, float* b0, float* b1, float* b2) {
-  const float c0 = coefficient[0], c1 = coefficient[1], c2 = coefficient[2], area = coefficient[3];
-  for (int j = 0; j < lanes; ++j) {
-    const double largest = keep_negative
-                               ? std::max(std::max(std::abs(u0[j]), std::abs(u1[j])), std::abs(u2[j]))
-                               : std::max(std::max(u0[j], u1[j]), u2[j]);
-    const double scale = largest > 1e-290 ? 1 / largest : 0;
-    const auto d0 = static_cast<float>((u1[j] - u2[j]) * scale);
-    const auto d1 = static_cast<float>((u2[j] - u0[j]) * scale);
-    const auto d2 = static_cast<float>((u0[j] - u1[j]) * scale);
-    const float energy = c0 * d0 * d0 + c1 * d1 * d1 + c2 * d2 * d2;  // u^T L_f u
-    const float weight = std::sqrt(area / std::max(energy, 1e-30f));
-    const float f0 = weight * c0 * d0, f1 = weight * c1 * d1, f2 = weight * c2 * d2;
-    b0[j] += f1 - f2;
-    b1[j] += f2 - f0;
-    b2[j] += f0 - f1;
+struct Faces {
+  const int32_t* corner;     // count x 3
+  const float* coefficient;  // count x 4: half cotangents, area
+  int64_t count;
+};
+
+template <bool keep_negative>
+FOCAL_INLINE void faces_body(const Faces& faces, const double* heat, float* rhs) {
+  float d[3][lanes], weight[lanes], counts[lanes];
+  for (int64_t f = 0; f < faces.count; ++f) {
+    const int32_t* corner = faces.corner + 3 * f;
+    const double *u0 = heat + int64_t{corner[0]} * lanes, *u1 = heat + int64_t{corner[1]} * lanes,
+                 *u2 = heat + int64_t{corner[2]} * lanes;
+    for (int j = 0; j < lanes; ++j) {
+      const double largest = std::max(std::max(std::abs(u0[j]), std::abs(u1[j])), std::abs(u2[j]));
+      const double scale = 1 / std::max(largest, 1e-290);
+      d[0][j] = static_cast<float>((u1[j] - u2[j]) * scale);
+      d[1][j] = static_cast<float>((u2[j] - u0[j]) * scale);
+      d[2][j] = static_cast<float>((u0[j] - u1[j]) * scale);
+      const double highest = keep_negative ? largest : std::max(std::max(u0[j], u1[j]), u2[j]);
+      counts[j] = highest > 1e-290 ? 1.0f : 0.0f;
+    }
+    const float *c = faces.coefficient + 4 * f, c0 = c[0], c1 = c[1], c2 = c[2], area = c[3];
+    for (int j = 0; j < lanes; ++j) {
+      const float energy =
+          c0 * d[0][j] * d[0][j] + c1 * d[1][j] * d[1][j] + c2 * d[2][j] * d[2][j];  // u^T L_f u
+      weight[j] = counts[j] * std::sqrt(area / std::max(energy, 1e-30f));
+    }
+    float *b0 = rhs + int64_t{corner[0]} * lanes, *b1 = rhs + int64_t{corner[1]} * lanes,
+          *b2 = rhs + int64_t{corner[2]} * lanes;
+    for (int j = 0; j < lanes; ++j) {
+      const float f0 = weight[j] * c0 * d[0][j], f1 = weight[j] * c1 * d[1][j], f2 = weight[j] * c2 * d[2][j];
+      d[0][j] = f1 - f2, d[1][j] = f2 - f0, d[2][j] = f0 - f1;
+    }
+    for (int j = 0; j < lanes; ++j) b0[j] += d[0][j];
+    for (int j = 0; j < lanes; ++j) b1[j] += d[1][j];
+    for (int j = 0; j < lanes; ++j) b2[j] += d[2][j];
   }
 }
-FOCAL_MULTIVERSION(void add_face(const double* u0, const double* u1, const double* u2,
-                                 const float* coefficient, bool keep_negative, float* b0, float* b1,
-                                 float* b2),
-                   face_body(u0, u1, u2, coefficient, keep_negative, b0, b1, b2);)
+FOCAL_MULTIVERSION(void add_faces(const Faces& faces, const double* heat, float* rhs),
+                   faces_body<false>(faces, heat, rhs);)
+FOCAL_MULTIVERSION(void add_faces_signed(const Faces& faces, const double* heat, float* rhs),
+                   faces_body<true>(faces, heat, rhs);)
 
 }  // namespace
 
@@ -125,12 +145,11 @@ void HeatMethod::solve_block(std::span<const Source> sources, double* heat, floa
   }
   heat_.solve_block(heat);
   std::fill(distance, distance + size, 0.0f);
-  for (Eigen::Index f = 0; f < faces_.rows(); ++f) {
-    size_t at[3];
-    for (int i = 0; i < 3; ++i) at[i] = static_cast<size_t>(faces_(f, i)) * lanes;
-    add_face(heat + at[0], heat + at[1], heat + at[2], &face_coefficient_(f, 0), keep_negative_heat_,
-             distance + at[0], distance + at[1], distance + at[2]);
-  }
+  const Faces faces{faces_.data(), face_coefficient_.data(), faces_.rows()};
+  if (keep_negative_heat_)
+    add_faces_signed(faces, heat, distance);
+  else
+    add_faces(faces, heat, distance);
   poisson_.solve_block(distance);
   float zero
       [lanes];  // the level that is distance 0: at the corners round a source it lies as far below as they are away

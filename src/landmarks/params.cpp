@@ -5,7 +5,8 @@ namespace focal {
 TrainParams TrainParams::from_preset(Preset preset) {
   TrainParams params;
   params.preset = preset;
-  if (preset == Preset::paper) params.proxy_vertices = 0, params.sampling_rate = 0.5;
+  if (preset == Preset::paper)
+    params.eigenpair_count = 200, params.proxy_vertices = 0, params.sampling_rate = 0.5;
   return params;  // the other numbers of Xia et al. 2016, Section 5, serve both presets
 }
 

@@ -9,7 +9,7 @@ enum class Quality : int32_t { best = 0, interactive = 1 };
 
 struct TrainParams {
   Preset preset = Preset::default_preset;
-  int32_t eigenpair_count = 200;
+  int32_t eigenpair_count = 128;  // measured as good as 200 on proxies
   int32_t tree_count = 30;
   int32_t min_leaf_samples = 5;  // default: smallest leaf; paper: a node of fewer than twice that is a leaf
   int32_t components_per_split = 5;  // random descriptor components tried at each split

@@ -2,6 +2,7 @@
 
 #include <meshoptimizer.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <limits>
 
@@ -14,9 +15,17 @@ namespace {
 constexpr double worth_it = 1.1;     // a surface hardly larger than the proxy is analysed as it is
 constexpr double search_radius = 2;  // in mean edge lengths of the coarse surface
 
+// Turned to its principal axes: the decimation scales by the bounding box, so another pose of the same mesh in space
+// would lose other vertices.
+Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> upright_positions(const MatrixX3& positions) {
+  const MatrixX3 centred = positions.rowwise() - positions.colwise().mean();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(centred.transpose() * centred);
+  return (centred * axes.eigenvectors()).cast<float>();
+}
+
 // Triangles over some of the vertices, as many as asked for or a few more.
 TriangleMesh decimate(const TriangleMesh& mesh, int32_t vertices) {
-  const Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> positions = mesh.positions.cast<float>();
+  const auto positions = upright_positions(mesh.positions);
   const auto index_count = static_cast<size_t>(mesh.triangles.size());
   std::vector<unsigned> indices(mesh.triangles.data(), mesh.triangles.data() + index_count),
       kept(index_count);

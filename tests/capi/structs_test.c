@@ -11,7 +11,7 @@ static void check_init(void) {
   focal_train_params params;
   CHECK_OK(focal_train_params_init(&params, sizeof params));
   CHECK(params.struct_size == sizeof params);
-  CHECK(params.preset == FOCAL_PRESET_DEFAULT && params.tree_count == 30 && params.eigenpair_count == 200);
+  CHECK(params.preset == FOCAL_PRESET_DEFAULT && params.tree_count == 30 && params.eigenpair_count == 128);
   CHECK_REFUSED(focal_train_params_init(NULL, sizeof params), FOCAL_ERROR_INVALID_ARGUMENT, "is NULL");
   CHECK_REFUSED(focal_train_params_init(&params, 4), FOCAL_ERROR_INVALID_ARGUMENT, "struct_size is 4");
   CHECK_REFUSED(focal_train_params_init(&params, 1u << 20), FOCAL_ERROR_INVALID_ARGUMENT, "struct_size");
