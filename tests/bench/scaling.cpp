@@ -140,7 +140,9 @@ void measure_all(const Options& options) {
   Json rows = Json::array();
   if (!options.json) print_header(subject.name, options);
   for (const int32_t size : options.sizes) {
-    write_mesh(resized(welded, size, static_cast<uint64_t>(size)), folder / "mesh");
+    const auto mesh = resized(welded, size, static_cast<uint64_t>(size));
+    if (open_edges(mesh) > open_edges(welded)) throw std::logic_error("resizing tore the mesh open");
+    write_mesh(mesh, folder / "mesh");
     const Json row = run_child(options, folder / "mesh", folder / "model");
     if (row.is_null()) {
       std::fprintf(stderr, "%d vertices: the detection failed or was stopped\n", size);
