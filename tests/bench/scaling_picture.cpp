@@ -46,8 +46,8 @@ Axis axis_over(const std::vector<double>& values, double from, double to) {
 }
 
 std::string tick_label(double value) {
-  if (value >= 1e6) return text("%gM", value / 1e6);
-  return value >= 1e4 ? text("%gK", value / 1e3) : text("%g", value);
+  if (value >= 1e6) return text("%.3gM", value / 1e6);
+  return value >= 2e3 ? text("%.3gK", value / 1e3) : text("%g", value);
 }
 
 std::string grid(const Panel& panel, const Axis& across, const Axis& up) {
