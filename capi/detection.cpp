@@ -4,9 +4,12 @@
 #include <limits>
 #include <utility>
 
+#include "analysis.h"
 #include "arguments.h"
+#include "base/atomic_file.h"
 #include "base/error.h"
 #include "boundary.h"
+#include "landmarks/analysis_file.h"
 #include "structs.h"
 #include "surface_points.h"
 #include "task.h"
@@ -104,24 +107,42 @@ focal_landmark to_abi(const DetectedLandmark& from, const std::string& name) {
   return to;
 }
 
-focal_detection* run(const focal_model* model, const focal_mesh* mesh, const focal_detect_params* params,
-                     focal_task* task) {
+// What the caller asked for, ready to run.
+struct Call {
+  std::shared_ptr<ModelObject> model;
+  DetectParams params;
+  TaskLease lease;
+  Execution execution;
+
+  Call(const focal_model* handle, const focal_detect_params* given, focal_task* task)
+      : model(resolve<ModelObject>(handle)),
+        params(checked(given)),
+        lease(task),
+        execution(model->context->execution_with(lease.task())) {
+    execution.check_cancelled();
+  }
+};
+
+focal_detection* publish_detection(const Call& call, std::shared_ptr<const MeshObject> mesh,
+                                   Detection detection) {
   const auto object = std::make_shared<DetectionObject>();
-  object->model = resolve<ModelObject>(model);
-  object->mesh = resolve<MeshObject>(mesh);
-  const DetectParams how = checked(params);
-  const TaskLease lease(task);
-  const Execution execution = object->model->context->execution_with(lease.task());
-  execution.check_cancelled();
-  object->detection = detect(object->model->model, object->mesh->mesh, how, execution);
-  object->detection.seconds.load = object->mesh->load_seconds;
-  object->detection.seconds.repair = object->mesh->repair_seconds;
-  object->detection.seconds.total += object->mesh->load_seconds + object->mesh->repair_seconds;
-  object->model->context->report_warnings(object->detection.warnings);
+  object->model = call.model;
+  object->mesh = std::move(mesh);
+  object->detection = std::move(detection);
+  call.model->context->report_warnings(object->detection.warnings);
   object->warnings = object->mesh->warnings;
   object->warnings.insert(object->warnings.end(), object->detection.warnings.begin(),
                           object->detection.warnings.end());
   return publish(object);
+}
+
+focal_detection* run(const Call& call, const focal_mesh* handle) {
+  const auto mesh = resolve<MeshObject>(handle);
+  Detection detection = detect(call.model->model, mesh->mesh, call.params, call.execution);
+  detection.seconds.load = mesh->load_seconds;
+  detection.seconds.repair = mesh->repair_seconds;
+  detection.seconds.total += mesh->load_seconds + mesh->repair_seconds;
+  return publish_detection(call, mesh, std::move(detection));
 }
 
 }  // namespace
@@ -138,7 +159,61 @@ focal_status focal_model_detect(const focal_model* model, const focal_mesh* mesh
                                 focal_detection** out_detection) {
   return guarded([&] {
     require(out_detection, "out_detection");
-    *out_detection = run(model, mesh, params, task);
+    *out_detection = run(Call(model, params, task), mesh);
+  });
+}
+
+focal_status focal_model_analyse(const focal_model* model, const focal_mesh* mesh,
+                                 const focal_detect_params* params, focal_task* task,
+                                 focal_analysis** out_analysis) {
+  return guarded([&] {
+    require(out_analysis, "out_analysis");
+    const Call call(model, params, task);
+    const auto object = std::make_shared<AnalysisObject>();
+    object->mesh = resolve<MeshObject>(mesh);
+    call.execution.begin_stage("analysis", 0, 0.8);
+    object->analysis = analyse_for(call.model->info.params, object->mesh->mesh, call.params, call.execution);
+    call.execution.begin_stage("distances", 0.8, 1);
+    keep_distances(object->analysis, call.execution);
+    call.execution.begin_stage("done", 1, 1);
+    *out_analysis = publish(object);
+  });
+}
+
+focal_status focal_model_detect_analysis(const focal_model* model, const focal_analysis* analysis,
+                                         const focal_detect_params* params, focal_task* task,
+                                         focal_detection** out_detection) {
+  return guarded([&] {
+    require(out_detection, "out_detection");
+    const Call call(model, params, task);
+    const auto analysed = resolve<AnalysisObject>(analysis);
+    *out_detection = publish_detection(
+        call, analysed->mesh, detect(call.model->model, analysed->analysis, call.params, call.execution));
+  });
+}
+
+focal_status focal_analysis_destroy(focal_analysis* analysis) {
+  return remove_handle(analysis, HandleType::analysis);
+}
+
+focal_status focal_analysis_save(const focal_analysis* analysis, const char* path) {
+  return guarded(
+      [&] { write_file_atomically(path_of(path), serialise(resolve<AnalysisObject>(analysis)->analysis)); });
+}
+
+focal_status focal_analysis_load(const focal_context* context, const focal_mesh* mesh, const char* path,
+                                 focal_analysis** out_analysis) {
+  return guarded([&] {
+    require(out_analysis, "out_analysis");
+    const auto running = resolve<ContextObject>(context);
+    const auto object = std::make_shared<AnalysisObject>();
+    object->mesh = resolve<MeshObject>(mesh);
+    const auto file = path_of(path);
+    naming_file(file, [&] {
+      object->analysis =
+          parse_analysis(read_file(file), object->mesh->mesh, running->execution_with(nullptr));
+    });
+    *out_analysis = publish(object);
   });
 }
 

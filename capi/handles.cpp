@@ -47,6 +47,8 @@ const char* name_of(HandleType type) {
       return "focal_training_set";
     case HandleType::model:
       return "focal_model";
+    case HandleType::analysis:
+      return "focal_analysis";
     case HandleType::detection:
       return "focal_detection";
     case HandleType::task:

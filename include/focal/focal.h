@@ -86,11 +86,12 @@ FOCAL_API uint64_t focal_peak_memory_bytes(void);
 
 /* ---- Handles ---- */
 
-typedef struct focal_context focal_context;               /* how calls are run: backend, threads, log */
-typedef struct focal_mesh focal_mesh;                     /* a surface, ready to be analysed */
-typedef struct focal_training_set focal_training_set;     /* marked meshes [builder] */
-typedef struct focal_model focal_model;                   /* what training makes */
-typedef struct focal_detection focal_detection;           /* landmarks found on one mesh */
+typedef struct focal_context focal_context;           /* how calls are run: backend, threads, log */
+typedef struct focal_mesh focal_mesh;                 /* a surface, ready to be analysed */
+typedef struct focal_training_set focal_training_set; /* marked meshes [builder] */
+typedef struct focal_model focal_model;               /* what training makes */
+typedef struct focal_detection focal_detection;       /* landmarks found on one mesh */
+typedef struct focal_analysis focal_analysis; /* what is computed of a mesh before any model is asked */
 typedef struct focal_correspondence focal_correspondence; /* reserved: maps between two detected meshes */
 typedef struct focal_skeleton focal_skeleton; /* reserved: joints and skin weights from a detection */
 typedef struct focal_task focal_task;         /* progress and cancellation [any thread] */
@@ -361,6 +362,28 @@ FOCAL_API focal_status focal_model_detect(const focal_model* model, const focal_
                                           const focal_detect_params* params, focal_task* task,
                                           focal_detection** out_detection);
 FOCAL_API focal_status focal_detection_destroy(focal_detection* detection);
+
+/* ---- Analysis: one mesh, many models ---- */
+
+/* Analyses the mesh as this model needs it; nearly all the work of a detection. The result serves every model with the
+ * same eigenpair_count, proxy_vertices and preset, so all of the default preset. params may be NULL; of them count
+ * quality, sampling_rate, max_samples and seed. Errors: CANCELLED, NOT_CONVERGED. It keeps the mesh alive. */
+FOCAL_API focal_status focal_model_analyse(const focal_model* model, const focal_mesh* mesh,
+                                           const focal_detect_params* params, focal_task* task,
+                                           focal_analysis** out_analysis);
+FOCAL_API focal_status focal_analysis_destroy(focal_analysis* analysis);
+
+/* Like focal_model_detect, on an analysed mesh: tens of milliseconds. INVALID_ARGUMENT when the analysis was made with
+ * other parameters than the model's. */
+FOCAL_API focal_status focal_model_detect_analysis(const focal_model* model, const focal_analysis* analysis,
+                                                   const focal_detect_params* params, focal_task* task,
+                                                   focal_detection** out_detection);
+
+/* An analysis in a file, a few MB, and back for the same mesh. Errors: IO, FILE_NOT_FOUND, INVALID_FILE (damaged, or of
+ * another mesh), UNSUPPORTED_VERSION. It contains geometry of the mesh. */
+FOCAL_API focal_status focal_analysis_save(const focal_analysis* analysis, const char* path);
+FOCAL_API focal_status focal_analysis_load(const focal_context* context, const focal_mesh* mesh,
+                                           const char* path, focal_analysis** out_analysis);
 
 typedef int32_t focal_landmark_status;
 enum { FOCAL_LANDMARK_FOUND = 0, FOCAL_LANDMARK_UNCERTAIN = 1, FOCAL_LANDMARK_ABSENT = 2 };

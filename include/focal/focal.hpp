@@ -114,6 +114,17 @@ class Mesh : public Owner<focal_mesh, focal_mesh_destroy> {
   }
 };
 
+class Analysis : public Owner<focal_analysis, focal_analysis_destroy> {
+ public:
+  using Owner::Owner;
+  static Analysis load(const Context& context, const Mesh& mesh, const std::string& path) {
+    focal_analysis* analysis = nullptr;
+    check(focal_analysis_load(context.get(), mesh.get(), path.c_str(), &analysis));
+    return Analysis(analysis);
+  }
+  void save(const std::string& path) const { check(focal_analysis_save(handle_, path.c_str())); }
+};
+
 class Detection : public Owner<focal_detection, focal_detection_destroy> {
  public:
   using Owner::Owner;
@@ -203,6 +214,20 @@ class Model : public Owner<focal_model, focal_model_destroy> {
                    Task* task = nullptr) const {
     focal_detection* detection = nullptr;
     check(focal_model_detect(handle_, mesh.get(), params, task ? task->get() : nullptr, &detection));
+    return Detection(detection);
+  }
+  // Once a mesh, for many models.
+  Analysis analyse(const Mesh& mesh, const focal_detect_params* params = nullptr,
+                   Task* task = nullptr) const {
+    focal_analysis* analysis = nullptr;
+    check(focal_model_analyse(handle_, mesh.get(), params, task ? task->get() : nullptr, &analysis));
+    return Analysis(analysis);
+  }
+  Detection detect(const Analysis& analysis, const focal_detect_params* params = nullptr,
+                   Task* task = nullptr) const {
+    focal_detection* detection = nullptr;
+    check(focal_model_detect_analysis(handle_, analysis.get(), params, task ? task->get() : nullptr,
+                                      &detection));
     return Detection(detection);
   }
 };

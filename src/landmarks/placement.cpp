@@ -37,21 +37,6 @@ RowMatrixf cast_votes(const LandmarkModel& model, const SurfaceAnalysis& analysi
   return votes.leftCols(L);
 }
 
-// Vertices reached from a vertex without leaving the ball of the peaks' separation round it.
-std::vector<int32_t> flood_ball(const SurfaceAnalysis& analysis, int32_t centre) {
-  const auto& positions = analysis.surface().positions;
-  std::vector<int32_t> inside = {centre};
-  std::vector<char> seen(positions.rows(), 0);
-  seen[centre] = 1;
-  for (size_t i = 0; i < inside.size(); ++i)
-    for (SparseMatrix::InnerIterator it(analysis.operators.L, inside[i]); it; ++it) {
-      const auto v = static_cast<int32_t>(it.row());
-      if (seen[v] || (positions.row(v) - positions.row(centre)).norm() >= peak_separation) continue;
-      seen[v] = 1, inside.push_back(v);
-    }
-  return inside;
-}
-
 ConstellationCandidates make_candidates(const std::vector<std::vector<int32_t>>& peaks,
                                         const RowMatrixf& votes, const SurfaceAnalysis& analysis,
                                         std::vector<int32_t>& vertices, const Execution& execution) {
@@ -107,7 +92,10 @@ Placement place_landmarks(const LandmarkModel& model, const SurfaceAnalysis& ana
   Stopwatch watch;
   const auto peaks = find_peaks(
       result.votes, static_cast<int32_t>(result.votes.cols()), params.peaks_per_landmark, 0,
-      [&](int32_t v) { return flood_ball(analysis, v); }, execution);
+      [&](int32_t v) {
+        return connected_ball(analysis.operators.L, analysis.surface().positions, v, peak_separation);
+      },
+      execution);
   seconds.vote += watch.lap();
   std::vector<int32_t> vertices;
   const ConstellationCandidates candidates =

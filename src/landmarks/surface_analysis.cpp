@@ -59,9 +59,7 @@ SurfaceAnalysis analyse_surface(std::shared_ptr<const PreparedMesh> mesh, const 
   result.proxy = make_proxy(std::move(mesh), params.proxy_vertices);
   result.proxy_seconds = watch.lap();
   execution.check_cancelled();
-  result.operators = make_operators(result.surface(), result.proxy.coarse->bridges, !params.to_the_letter);
-  execution.check_cancelled();
-  result.heat = HeatMethod(result.surface(), result.operators, execution, 1, params.to_the_letter);
+  make_solvers(result, execution);
   result.geodesic_seconds = watch.lap();
   execution.check_cancelled();
   EigenParams eigen;
@@ -76,6 +74,13 @@ SurfaceAnalysis analyse_surface(std::shared_ptr<const PreparedMesh> mesh, const 
   result.descriptors = si_hks(basis, result.operators.area, result.samples).cast<float>();
   result.descriptor_seconds = watch.lap();
   return result;
+}
+
+void make_solvers(SurfaceAnalysis& analysis, const Execution& execution) {
+  const bool to_the_letter = analysis.params.to_the_letter;
+  analysis.operators = make_operators(analysis.surface(), analysis.proxy.coarse->bridges, !to_the_letter);
+  execution.check_cancelled();
+  analysis.heat = HeatMethod(analysis.surface(), analysis.operators, execution, 1, to_the_letter);
 }
 
 void keep_distances(SurfaceAnalysis& analysis, const Execution& execution) {

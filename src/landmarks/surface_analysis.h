@@ -51,6 +51,9 @@ struct SurfaceAnalysis {
 SurfaceAnalysis analyse_surface(std::shared_ptr<const PreparedMesh> mesh, const AnalysisParams& params,
                                 const Execution& execution);
 
+// Operators and heat of a proxy that is there already.
+void make_solvers(SurfaceAnalysis& analysis, const Execution& execution);
+
 // Computes and keeps the distances of all samples, when they take less than about 64 MB.
 void keep_distances(SurfaceAnalysis& analysis, const Execution& execution);
 

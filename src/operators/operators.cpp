@@ -70,6 +70,20 @@ Operators make_operators(const TriangleMesh& mesh, std::span<const std::pair<int
   return result;
 }
 
+std::vector<int32_t> connected_ball(const SparseMatrix& L, const MatrixX3& positions, int32_t centre,
+                                    double radius) {
+  std::vector<int32_t> inside = {centre};
+  std::vector<char> seen(positions.rows(), 0);
+  seen[centre] = 1;
+  for (size_t i = 0; i < inside.size(); ++i)
+    for (SparseMatrix::InnerIterator it(L, inside[i]); it; ++it) {
+      const auto v = static_cast<int32_t>(it.row());
+      if (seen[v] || (positions.row(v) - positions.row(centre)).norm() >= radius) continue;
+      seen[v] = 1, inside.push_back(v);
+    }
+  return inside;
+}
+
 MatrixX3 gradient(const TriangleMesh& mesh, const Vector& u) {
   MatrixX3 result = MatrixX3::Zero(mesh.triangle_count(), 3);
   for (int32_t t = 0; t < mesh.triangle_count(); ++t) {

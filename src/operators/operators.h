@@ -25,6 +25,10 @@ struct Operators {
 Operators make_operators(const TriangleMesh& mesh, std::span<const std::pair<int32_t, int32_t>> bridges = {},
                          bool delaunay = false);
 
+// Vertices reached from a vertex along the edges of L without leaving the ball of this radius round it, itself first.
+std::vector<int32_t> connected_ball(const SparseMatrix& L, const MatrixX3& positions, int32_t centre,
+                                    double radius);
+
 // Gradient of the vertex function u (n) in each triangle, m x 3.
 MatrixX3 gradient(const TriangleMesh& mesh, const Vector& u);
 // Integrated divergence at the vertices (n) of the field X (m x 3), constant in each triangle. L = -divergence gradient.

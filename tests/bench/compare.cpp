@@ -31,7 +31,10 @@ void compare_detect(const Values& v, const Options& options, std::vector<Row>& r
   std::vector<std::function<void()>> works = {
       [&] { stock_detect(*v.model, v.subject.test, options.threads); }};
   for (const auto& variant : variants)
-    works.push_back([&] { whole_detect(v.model, v.subject.test, variant.params, options.threads); });
+    works.push_back([&] {
+      whole_detect(variant.full_resolution ? v.model : v.quick_model, v.subject.test, variant.params,
+                   options.threads);
+    });
   const auto seconds = medians_in_turn(options.runs, works);
   for (size_t i = 0; i < variants.size(); ++i)
     rows.push_back({"detect, " + v.subject.name + ", " + variants[i].name, seconds[i + 1], seconds[0],
@@ -42,9 +45,17 @@ void compare_detect(const Values& v, const Options& options, std::vector<Row>& r
 void compare_threads(const Values& v, const Options& options, std::vector<Row>& rows) {
   const auto params = detect_variants()[0].params;
   const auto seconds =
-      medians_in_turn(options.runs, {[&] { whole_detect(v.model, v.subject.test, params, 2); },
-                                     [&] { whole_detect(v.model, v.subject.test, params, 1); }});
+      medians_in_turn(options.runs, {[&] { whole_detect(v.quick_model, v.subject.test, params, 2); },
+                                     [&] { whole_detect(v.quick_model, v.subject.test, params, 1); }});
   rows.push_back({"detect on two threads, interactive", seconds[0], seconds[1], "one thread", ""});
+}
+
+void time_second_model(const Values& v, const Options& options, std::vector<Row>& rows) {
+  const auto params = detect_variants()[0].params;
+  const auto analysis = analysed(v, params, options.threads);
+  const auto seconds =
+      medians_in_turn(options.runs, {[&] { second_detect(v, analysis, params, options.threads); }});
+  rows.push_back({"second model on an analysed mesh", seconds[0], {}, "", ""});
 }
 
 void compare_eigenpairs(const Values& v, const Options& options, std::vector<Row>& rows) {
@@ -80,7 +91,7 @@ void compare_distances(const Values& v, const Options& options, std::vector<Row>
 void time_training(const Values& v, const Options& options, std::vector<Row>& rows) {
   const int runs = options.train_runs ? options.train_runs : options.runs;
   const auto seconds = medians_in_turn(
-      runs, {[&] { focal::train(v.subject.training, v.model->params, threads_of(options.threads)); }});
+      runs, {[&] { focal::train(v.subject.training, v.quick_model->params, threads_of(options.threads)); }});
   rows.push_back(
       {"train, " + std::to_string(v.subject.training.shapes.size()) + " shapes like " + v.subject.name,
        seconds[0],
@@ -138,6 +149,7 @@ int main(int argc, char** argv) try {
     const Values values(set_or_people("faust12k"));
     compare_detect(values, options, rows);
     compare_threads(values, options, rows);
+    time_second_model(values, options, rows);
     compare_eigenpairs(values, options, rows);
     compare_distances(values, options, rows);
     time_training(values, options, rows);

@@ -11,15 +11,19 @@ using namespace focal;
 
 std::vector<int32_t> drawn_samples(int32_t vertex_count) {
   const DetectParams params;
-  const auto wanted = static_cast<int32_t>(params.sampling_rate * vertex_count);
+  const double rate = sampling_rate_of(params, TrainParams::from_preset(Preset::paper));
   Random random(params.seed);
+  const auto wanted = static_cast<int32_t>(rate * vertex_count);
   return sample_without_replacement(random, vertex_count,
                                     std::min(std::max(wanted, 100), params.max_samples));
 }
 
-Peaks peaks_of(const RowMatrixf& votes, const DistanceFields& fields) {
+Peaks peaks_of(const RowMatrixf& votes, int32_t landmarks, const TriangleMesh& mesh,
+               const Operators& operators, const Execution& execution) {
   constexpr double separation = 0.08;  // of sqrt(area)
-  return find_peaks(votes, DetectParams().peaks_per_landmark, separation, 0, fields);
+  return find_peaks(
+      votes, landmarks, DetectParams().peaks_per_landmark, 0,
+      [&](int32_t v) { return connected_ball(operators.L, mesh.positions, v, separation); }, execution);
 }
 
 std::vector<int32_t> choose_among(const Peaks& peaks, const RowMatrixf& votes, const LandmarkModel& model,
@@ -41,11 +45,8 @@ std::vector<int32_t> choose_among(const Peaks& peaks, const RowMatrixf& votes, c
   for (size_t a = 0; a < vertices.size(); ++a)
     for (size_t b = 0; b < vertices.size(); ++b)
       candidates.distance(a, b) = (field(a, vertices[b]) + field(b, vertices[a])) / 2;
-  std::vector<SurfacePoint> corner(mesh.surface.vertex_count()), points;
-  for (int32_t t = 0; t < mesh.surface.triangle_count(); ++t)
-    for (int i = 0; i < 3; ++i) corner[mesh.surface.triangles(t, i)] = {t, Vector3::Unit(i)};
-  for (const int32_t v : vertices) points.push_back(corner[v]);
-  candidates.directions = tangent_directions(mesh.surface, points, field, disc_radius, execution);
+  candidates.directions =
+      tangent_directions(mesh.surface, points_at(mesh.surface, vertices), field, disc_radius, execution);
   const auto choice = choose_constellation(model.constellation, candidates, {}, execution);
   std::vector<int32_t> chosen;
   for (const int32_t c : choice.candidate) chosen.push_back(c < 0 ? -1 : vertices[c]);

@@ -2,10 +2,13 @@
 // peaks, which candidates. Shared by the stock pipeline and the benchmarks of single stages.
 #pragma once
 #include <cstdint>
+#include <functional>
+#include <span>
 #include <vector>
 
 #include "landmarks/model_parts.h"
 #include "mesh/prepare.h"
+#include "operators/operators.h"
 #include "vote/peaks.h"
 
 namespace focal_bench {
@@ -18,11 +21,13 @@ inline focal::Execution threads_of(int count) {
 std::vector<int32_t> drawn_samples(int32_t vertex_count);
 
 using Peaks = std::vector<std::vector<int32_t>>;  // vertices, one list a landmark
-Peaks peaks_of(const focal::RowMatrixf& votes, const focal::DistanceFields& fields);
+Peaks peaks_of(const focal::RowMatrixf& votes, int32_t landmarks, const focal::TriangleMesh& mesh,
+               const focal::Operators& operators, const focal::Execution& execution);
 
+using DistanceFields = std::function<focal::RowMatrixf(std::span<const int32_t> vertices)>;  // vertices x all
 // The constellation's choice, one vertex a landmark; -1: none.
 std::vector<int32_t> choose_among(const Peaks& peaks, const focal::RowMatrixf& votes,
                                   const focal::LandmarkModel& model, const focal::PreparedMesh& mesh,
-                                  const focal::DistanceFields& fields, const focal::Execution& execution);
+                                  const DistanceFields& fields, const focal::Execution& execution);
 
 }  // namespace focal_bench

@@ -135,7 +135,10 @@ void measure_all(const Options& options) {
   const fs::path folder = fs::temp_directory_path() / ("focal_bench_scaling_" + std::to_string(getpid()));
   fs::create_directories(folder);
   const Subject subject = set_or_people("faust12k");
-  focal::write_file_atomically(folder / "model", focal::serialise(*trained(subject, options.threads)));
+  focal::write_file_atomically(
+      folder / "model",
+      focal::serialise(*trained(subject, focal::TrainParams::from_preset(focal::Preset::default_preset),
+                                options.threads)));
   const auto welded = focal::prepare(subject.test).surface;
   Json rows = Json::array();
   if (!options.json) print_header(subject.name, options);

@@ -1,7 +1,6 @@
 #include "stages.h"
 
 #include <algorithm>
-#include <cstring>
 
 #include "descriptors/descriptor.h"
 #include "landmarks/leaf_votes.h"
@@ -27,35 +26,23 @@ void solve_one_block(const SparseCholesky& factor) {
   factor.solve_block(sides.data());
 }
 
-std::vector<float> distance_blocks(const HeatMethod& heat, const std::vector<int32_t>& samples) {
+double step_of(const HeatMethod& heat) { return heat.distance_bound() / 65535; }
+
+std::vector<uint16_t> distance_blocks(const HeatMethod& heat, const std::vector<int32_t>& samples) {
   const size_t block = static_cast<size_t>(heat.vertex_count()) * lanes;
-  std::vector<float> blocks((samples.size() + lanes - 1) / lanes * block);
+  std::vector<uint16_t> blocks((samples.size() + lanes - 1) / lanes * block);
   heat.for_each_block(std::span(samples), {}, [&](int64_t first, int32_t, const float* distances) {
-    std::memcpy(&blocks[first / lanes * block], distances, block * sizeof(float));
+    for (size_t i = 0; i < block; ++i)
+      blocks[first / lanes * block + i] = static_cast<uint16_t>(distances[i] / step_of(heat) + 0.5);
   });
   return blocks;
 }
 
-// Tables block by block, as in detection: they are small enough to stay in the cache.
-void make_tables(const Values& values, const Execution& execution) {
-  const auto count = static_cast<Eigen::Index>(values.samples.size());
-  for (Eigen::Index first = 0; first < count; first += lanes)
-    leaf_vote_tables(*values.model,
-                     values.descriptors.middleRows(first, std::min<Eigen::Index>(lanes, count - first)),
-                     execution);
-}
-
 RowMatrixf cast_votes(const Values& values, const Execution& execution) {
-  RowMatrixf votes = RowMatrixf::Zero(values.heat.vertex_count(), values.tables.landmarks);
-  const auto count = static_cast<int32_t>(values.samples.size());
-  VoteTables part = values.tables;
-  const size_t table = static_cast<size_t>(part.bins) * part.landmarks;
-  for (int32_t first = 0; first < count; first += lanes) {
-    const int32_t used = std::min(lanes, count - first);
-    part.weight.assign(values.tables.of(first), values.tables.of(first) + used * table);
-    add_distribution_votes(part, &values.blocks[static_cast<size_t>(first) * values.heat.vertex_count()],
-                           used, votes, execution);
-  }
+  RowMatrixf votes = RowMatrixf::Zero(values.heat.vertex_count(), values.tables.stride());
+  add_distribution_votes(values.tables, static_cast<int32_t>(values.samples.size()),
+                         {values.blocks.data(), step_of(values.heat), values.heat.vertex_count()}, 0, votes,
+                         execution);
   return votes;
 }
 
@@ -63,10 +50,22 @@ DistanceFields fields_of(const Values& values, const Execution& execution) {
   return [&](std::span<const int32_t> vertices) { return values.heat.distances(vertices, execution); };
 }
 
+Peaks find(const Values& values, const Execution& execution) {
+  return peaks_of(values.votes, values.tables.landmarks, values.mesh->surface, values.operators, execution);
+}
+
+TrainParams full_resolution() {
+  TrainParams params = TrainParams::from_preset(Preset::default_preset);
+  params.eigenpair_count = 200, params.proxy_vertices = 0, params.sampling_rate = 0.5;
+  return params;
+}
+
 }  // namespace
 
 Values::Values(Subject of, std::shared_ptr<const LandmarkModel> known)
-    : subject(std::move(of)), model(known ? std::move(known) : trained(subject, 0)) {
+    : subject(std::move(of)),
+      model(known ? known : trained(subject, full_resolution(), 0)),
+      quick_model(known ? known : trained(subject, TrainParams::from_preset(Preset::default_preset), 0)) {
   mesh = std::make_shared<PreparedMesh>(prepare(subject.test));
   operators = make_operators(mesh->surface, mesh->bridges);
   heat = HeatMethod(mesh->surface, operators);
@@ -77,7 +76,7 @@ Values::Values(Subject of, std::shared_ptr<const LandmarkModel> known)
   tables = leaf_vote_tables(*model, descriptors, {});
   blocks = distance_blocks(heat, samples);
   votes = cast_votes(*this, {});
-  peaks = peaks_of(votes, fields_of(*this, {}));
+  peaks = find(*this, {});
 }
 
 std::vector<Stage> focal_stages() {
@@ -93,14 +92,16 @@ std::vector<Stage> focal_stages() {
       {"si_hks", [](V v, E) { si_hks(v.basis, v.operators.area, v.samples); }, false},
       {"heat_factors", [](V v, E) { HeatMethod(v.mesh->surface, v.operators); }, false},
       {"heat_distances", [](V v, E e) { focal_distances(v.heat, v.samples, e); }},
-      {"leaf_tables", make_tables},
+      {"leaf_tables", [](V v, E e) { leaf_vote_tables(*v.model, v.descriptors, e); }},
       {"votes", [](V v, E e) { cast_votes(v, e); }},
-      {"peaks", [](V v, E e) { peaks_of(v.votes, fields_of(v, e)); }},
+      {"peaks", [](V v, E e) { find(v, e); }},
       {"constellation",
        [](V v, E e) { choose_among(v.peaks, v.votes, *v.model, *v.mesh, fields_of(v, e), e); }},
       {"detect",
-       [](V v, E e) { whole_detect(v.model, v.subject.test, detect_variants()[0].params, e.threads()); }},
-      {"train", [](V v, E e) { train(v.subject.training, v.model->params, e); }},
+       [](V v, E e) {
+         whole_detect(v.quick_model, v.subject.test, detect_variants()[0].params, e.threads());
+       }},
+      {"train", [](V v, E e) { train(v.subject.training, v.quick_model->params, e); }},
   };
 }
 
@@ -108,12 +109,24 @@ std::vector<Variant> detect_variants() {
   DetectParams interactive, best;
   interactive.quality = Quality::interactive;
   best.quality = Quality::best;
-  return {{"interactive", interactive}, {"best", best}};
+  return {{"interactive", interactive}, {"best", best}, {"full resolution", interactive, true}};
 }
 
 Detection whole_detect(const std::shared_ptr<const LandmarkModel>& model, const TriangleMesh& mesh,
                        const DetectParams& params, int threads) {
   return detect(model, std::make_shared<PreparedMesh>(prepare(mesh)), params, threads_of(threads));
+}
+
+SurfaceAnalysis analysed(const Values& values, const DetectParams& params, int threads) {
+  SurfaceAnalysis analysis =
+      analyse_for(values.quick_model->params, values.mesh, params, threads_of(threads));
+  keep_distances(analysis, threads_of(threads));
+  return analysis;
+}
+
+Detection second_detect(const Values& values, const SurfaceAnalysis& analysis, const DetectParams& params,
+                        int threads) {
+  return detect(values.quick_model, analysis, params, threads_of(threads));
 }
 
 Eigenbasis focal_eigenpairs(const Operators& operators, int32_t count, const Execution& execution) {

@@ -16,12 +16,13 @@
 
 namespace focal_bench {
 
-// Every value that some stage starts from.
+// Every value that some stage starts from, at full resolution, as the stock pipeline works.
 struct Values {
   explicit Values(Subject of, std::shared_ptr<const focal::LandmarkModel> known = nullptr);
 
   Subject subject;
-  std::shared_ptr<const focal::LandmarkModel> model;
+  std::shared_ptr<const focal::LandmarkModel> model;        // learned at full resolution, from 200 eigenpairs
+  std::shared_ptr<const focal::LandmarkModel> quick_model;  // focal's default: on proxies
   std::shared_ptr<const focal::PreparedMesh> mesh;
   focal::Operators operators;
   focal::HeatMethod heat;
@@ -30,7 +31,7 @@ struct Values {
   std::vector<int32_t> samples;
   focal::RowMatrixf descriptors;
   focal::VoteTables tables;
-  std::vector<float> blocks;  // the samples' distances, as the votes read them
+  std::vector<uint16_t> blocks;  // the samples' distances, as the votes read them
   focal::RowMatrixf votes;
   Peaks peaks;
 };
@@ -42,10 +43,11 @@ struct Stage {
 };
 std::vector<Stage> focal_stages();
 
-// What detection is asked for; later also full resolution where a proxy is the default.
+// What detection is asked for, and of which of the two models.
 struct Variant {
   std::string name;
   focal::DetectParams params;
+  bool full_resolution = false;
 };
 std::vector<Variant> detect_variants();
 
@@ -53,6 +55,11 @@ std::vector<Variant> detect_variants();
 focal::Detection whole_detect(const std::shared_ptr<const focal::LandmarkModel>& model,
                               const focal::TriangleMesh& mesh, const focal::DetectParams& params,
                               int threads);
+
+// A second model on a mesh that was analysed for the first.
+focal::SurfaceAnalysis analysed(const Values& values, const focal::DetectParams& params, int threads);
+focal::Detection second_detect(const Values& values, const focal::SurfaceAnalysis& analysis,
+                               const focal::DetectParams& params, int threads);
 
 // As focal's detection asks for them.
 focal::Eigenbasis focal_eigenpairs(const focal::Operators& operators, int32_t count,

@@ -45,9 +45,9 @@ void add_refine() {
   benchmark::RegisterBenchmark("focal/refine",
                                [](benchmark::State& state) {
                                  for (auto _ : state) {
-                                   const auto detection = whole_detect(values().model, values().subject.test,
-                                                                       detect_variants()[0].params,
-                                                                       static_cast<int>(state.range(0)));
+                                   const auto detection = whole_detect(
+                                       values().quick_model, values().subject.test,
+                                       detect_variants()[0].params, static_cast<int>(state.range(0)));
                                    state.SetIterationTime(detection.seconds.refine);
                                  }
                                })

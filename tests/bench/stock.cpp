@@ -144,12 +144,12 @@ RowMatrixf stock_votes(const VoteTables& tables, const RowMatrix& distances, int
   on_threads(threads, [&](int thread) {
     for (Eigen::Index s = 0; s < distances.rows(); ++s)
       for (Eigen::Index v = n * thread / threads; v < n * (thread + 1) / threads; ++v) {
-        const double at = std::clamp(distances(s, v) / tables.bin_width - 0.5, 0.0, tables.bins - 1.0);
-        const int32_t bin = std::min(static_cast<int32_t>(at), tables.bins - 2);
-        const auto fraction = static_cast<float>(at - bin);
-        const float* low = tables.of(s) + static_cast<int64_t>(bin) * tables.landmarks;
-        for (int32_t l = 0; l < tables.landmarks; ++l)
-          votes(v, l) += low[l] + fraction * (low[l + tables.landmarks] - low[l]);
+        const double at = std::min(distances(s, v) / tables.width, tables.rows - 1.0);
+        const int32_t row = std::min(static_cast<int32_t>(at), tables.rows - 2);
+        const auto fraction = static_cast<float>(at - row);
+        const float *low = tables.of(s) + static_cast<int64_t>(row) * tables.stride(),
+                    *high = low + tables.stride();
+        for (int32_t l = 0; l < tables.landmarks; ++l) votes(v, l) += low[l] + fraction * (high[l] - low[l]);
       }
   });
   return votes;
@@ -175,7 +175,7 @@ StockDetection stock_detect(const LandmarkModel& model, TriangleMesh source, int
   const DistanceFields fields = [&](std::span<const int32_t> from) -> RowMatrixf {
     return heat.distances(from, threads).cast<float>();
   };
-  const auto peaks = peaks_of(votes, fields);
+  const auto peaks = peaks_of(votes, tables.landmarks, mesh.surface, operators, threads_of(threads));
   result.vertex = choose_among(peaks, votes, model, mesh, fields, threads_of(threads));
   result.total = whole.lap();
   return result;

@@ -106,9 +106,8 @@ Subject set_or_people(const std::string& name) {
   return sample_people(10, 12500);
 }
 
-std::shared_ptr<const LandmarkModel> trained(const Subject& subject, int threads) {
-  return std::make_shared<LandmarkModel>(
-      train(subject.training, TrainParams::from_preset(Preset::default_preset), threads_of(threads)));
+std::shared_ptr<const LandmarkModel> trained(const Subject& subject, const TrainParams& params, int threads) {
+  return std::make_shared<LandmarkModel>(train(subject.training, params, threads_of(threads)));
 }
 
 }  // namespace focal_bench

@@ -25,6 +25,7 @@ Subject sample_people(int shapes, int32_t vertex_count);
 // The real set, else ten sample people of 12,500 vertices.
 Subject set_or_people(const std::string& name);
 
-std::shared_ptr<const focal::LandmarkModel> trained(const Subject& subject, int threads);
+std::shared_ptr<const focal::LandmarkModel> trained(const Subject& subject, const focal::TrainParams& params,
+                                                    int threads);
 
 }  // namespace focal_bench
