@@ -15,11 +15,11 @@
     [[maybe_unused]] constexpr int vector_bytes = 16; \
     __VA_ARGS__                                       \
   }                                                   \
-  [[gnu::target("avx2,fma")]] signature {                 \
+  [[gnu::target("avx2,fma")]] signature {             \
     [[maybe_unused]] constexpr int vector_bytes = 32; \
     __VA_ARGS__                                       \
   }                                                   \
-  [[gnu::target("avx512f,fma")]] signature {              \
+  [[gnu::target("avx512f,fma")]] signature {          \
     [[maybe_unused]] constexpr int vector_bytes = 64; \
     __VA_ARGS__                                       \
   }
