@@ -35,4 +35,4 @@ endif()
 
 # For targets where the compiler takes most of the time and the program next to none: the command and the tests.
 add_library(focal_quick_build INTERFACE)
-target_compile_options(focal_quick_build INTERFACE $<$<CONFIG:Release>:-O1>)
+target_compile_options(focal_quick_build INTERFACE $<$<NOT:$<CONFIG:Debug>>:-O1>)
