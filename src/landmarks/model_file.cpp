@@ -2,6 +2,7 @@
 #include "landmarks/model_file.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "base/archive.h"
@@ -155,6 +156,50 @@ void read_constellation(ByteReader in, LandmarkModel& model) {
   in.expect_end();
 }
 
+// --- ATLS: the training shapes as maps need them; none with preset paper
+
+constexpr int32_t point_limit = 1 << 16, eigenfunction_limit = 2000;
+
+void write_atlas(const LandmarkModel& model, ByteWriter& out) {
+  out.u32(static_cast<uint32_t>(model.atlas.size()));
+  for (const AtlasShape& shape : model.atlas) {
+    const RowMatrixf& Phi = shape.samples.Phi;
+    out.u32(static_cast<uint32_t>(shape.distances.rows()));
+    out.u32(static_cast<uint32_t>(Phi.cols()));
+    for (const char marked : shape.marked) out.u8(static_cast<uint8_t>(marked));
+    out.f32(shape.step);
+    for (Eigen::Index i = 0; i < Phi.size(); ++i)
+      out.u16(static_cast<uint16_t>(std::lround(Phi.data()[i] / shape.step) + atlas_zero));
+    out.f32s({shape.samples.weight.data(), static_cast<size_t>(shape.distances.rows())});
+    for (Eigen::Index i = 0; i < shape.distances.size(); ++i) out.u16(shape.distances.data()[i]);
+  }
+}
+
+AtlasShape read_atlas_shape(ByteReader& in, int32_t L) {
+  AtlasShape shape;
+  const int32_t points = in.count("point count", 32 + static_cast<uint64_t>(L) * 16, 4, point_limit);
+  const int32_t k =
+      in.count("eigenfunction count", static_cast<uint64_t>(points) * 16, 4, eigenfunction_limit);
+  for (int32_t l = 0; l < L; ++l) shape.marked.push_back(in.u8("marked") != 0);
+  shape.step = in.f32("step", 1e-12F, any_number);
+  shape.samples.Phi.resize(points + L, k);
+  for (Eigen::Index i = 0; i < shape.samples.Phi.size(); ++i)
+    shape.samples.Phi.data()[i] = static_cast<float>(in.u16("eigenfunction") - atlas_zero) * shape.step;
+  shape.samples.weight = Eigen::VectorXf::Zero(points + L);
+  const std::vector<float> weight = in.f32s("weight", static_cast<size_t>(points), 0, longest);
+  std::copy(weight.begin(), weight.end(), shape.samples.weight.data());
+  shape.distances.resize(points, L);
+  for (Eigen::Index i = 0; i < shape.distances.size(); ++i) shape.distances.data()[i] = in.u16("distance");
+  return shape;
+}
+
+void read_atlas(ByteReader in, LandmarkModel& model) {
+  const auto L = static_cast<int32_t>(model.landmark_names.size());
+  const int32_t count = in.count("shape count", 64, 0, model.shape_count);
+  for (int32_t s = 0; s < count; ++s) model.atlas.push_back(read_atlas_shape(in, L));
+  in.expect_end();
+}
+
 // --- CALB: confidence
 
 void write_calibration(const LandmarkModel& model, ByteWriter& out) {
@@ -192,11 +237,9 @@ struct Section {
   void (*read)(ByteReader, LandmarkModel&);
 };
 constexpr Section sections[] = {
-    {"INFO", write_info, read_info},
-    {"TRGT", write_targets, read_targets},
-    {"FRST", write_forests, read_forests},
-    {"CNST", write_constellation, read_constellation},
-    {"CALB", write_calibration, read_calibration},
+    {"INFO", write_info, read_info},       {"TRGT", write_targets, read_targets},
+    {"FRST", write_forests, read_forests}, {"CNST", write_constellation, read_constellation},
+    {"ATLS", write_atlas, read_atlas},     {"CALB", write_calibration, read_calibration},
 };
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "constellation/constellation.h"
 #include "forest/regression_forest.h"
 #include "landmarks/landmark_model.h"
+#include "spectrum/functional_map.h"
 
 namespace focal {
 
@@ -22,6 +23,15 @@ struct Calibration {
   float fit_centre = 0, fit_scale = 1;         // category fit: logistic of a mesh's mean evidence
 };
 
+// One training shape as functional maps need it; see landmarks/atlas.h.
+inline constexpr int32_t atlas_zero = 32768;  // what stands for 0 among 16-bit eigenfunctions
+struct AtlasShape {
+  SpectralSamples samples;   // points spread over it, then its marks, which weigh nothing
+  float step = 1;            // the eigenfunctions are whole multiples of it, fewer than 32768
+  TargetMatrix distances;    // points x landmarks, from the marks, as targets are kept
+  std::vector<char> marked;  // per landmark
+};
+
 struct LandmarkModel {
   std::vector<std::string> landmark_names;
   TrainParams params;
@@ -32,6 +42,7 @@ struct LandmarkModel {
   std::vector<RegressionForest> forests;
   TargetMatrix targets;  // samples x landmarks
   float reach = 0;       // largest target, of sqrt(area)
+  std::vector<AtlasShape> atlas;
   ConstellationStatistics constellation;
   Calibration calibration;
 };

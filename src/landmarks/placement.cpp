@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/stopwatch.h"
+#include "landmarks/consensus.h"
 #include "landmarks/leaf_votes.h"
 #include "landmarks/refine.h"
 #include "vote/peaks.h"
@@ -14,6 +15,7 @@ namespace {
 constexpr int32_t samples_at_once = 128;  // whose tables are in memory; a multiple of 32
 constexpr double peak_separation = 0.08;  // of sqrt(area), as measured in the reference
 constexpr double disc_radius = 0.04;      // of the tangent directions, likewise
+constexpr size_t distinct_choices = 3;    // of the constellation, among which the maps decide
 
 // Votes of the first `count` samples, vertices x landmarks.
 RowMatrixf cast_votes(const LandmarkModel& model, const SurfaceAnalysis& analysis, int32_t count,
@@ -100,12 +102,17 @@ Placement place_landmarks(const LandmarkModel& model, const SurfaceAnalysis& ana
   std::vector<int32_t> vertices;
   const ConstellationCandidates candidates =
       make_candidates(peaks, result.votes, analysis, vertices, execution);
-  const ConstellationChoice choice =
-      choose_constellation(model.constellation, candidates, ConstellationParams{}, execution);
+  const bool by_maps = !model.atlas.empty() && params.quality == Quality::best;
+  const auto choices = distinct_constellations(model.constellation, candidates, ConstellationParams{},
+                                               by_maps ? distinct_choices : 1, execution);
+  const SpectralTargets targets = by_maps ? spectral_targets(analysis) : SpectralTargets{};
+  const ConstellationChoice& choice =
+      choices[choices.size() > 1 ? most_alike(model, analysis, targets, choices, vertices, execution) : 0];
   result.energy = choice.energy;
   record_evidence(peaks, candidates, choice, samples, vertices, result);
   seconds.constellation += watch.lap();
   refine_placement(model.constellation, analysis, result, execution);
+  if (by_maps) join_carried_marks(model, analysis, targets, result, execution);
   seconds.refine += watch.lap();
   return result;
 }

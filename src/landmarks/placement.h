@@ -14,6 +14,8 @@ struct Evidence {
   float residual = 0;    // see ConstellationChoice
   float vote_level = 0;  // vote a sample at the place
   float rival = 0;       // best vote of its other peaks / vote at the place
+  float spread = 0;      // of the marks carried over from the training shapes, of sqrt(area); 0 without maps
+  float gap = 0;         // between the votes' place and where they agree, likewise
 };
 
 struct Placement {
@@ -21,8 +23,9 @@ struct Placement {
   std::vector<SurfacePoint> point;  // the same, between the vertices
   std::vector<int32_t> rival;       // its strongest other peak, or -1
   std::vector<Evidence> evidence;
-  double energy = 0;  // of the constellation
-  RowMatrixf votes;   // vertices of the analysed surface x landmarks
+  double energy = 0;       // of the constellation
+  float map_residual = 0;  // mean of the maps from the training shapes; 0 without maps
+  RowMatrixf votes;        // vertices of the analysed surface x landmarks
 };
 
 // sample_limit: at most so many of the analysis' samples vote.

@@ -67,6 +67,7 @@ SurfaceAnalysis analyse_surface(std::shared_ptr<const PreparedMesh> mesh, const 
   eigen.method = EigenMethod::chebyshev;
   eigen.tolerance = 1e-5;  // far below what the signatures, and a forest's thresholds, can tell
   const Eigenbasis basis = eigenbasis(result.operators.L, result.operators.mass, eigen, execution);
+  result.eigenfunctions = basis.Phi.cast<float>();
   result.spectrum_seconds = watch.lap();
   Random random(params.seed, params.stream);
   const int32_t n = result.surface().vertex_count(), count = sample_count(n, params);

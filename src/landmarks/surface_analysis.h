@@ -42,6 +42,7 @@ struct SurfaceAnalysis {
   HeatMethod heat;
   std::vector<int32_t> samples;  // vertices, in random order: any beginning is a random sample too
   RowMatrixf descriptors;        // samples x 96, SI-HKS
+  RowMatrixf eigenfunctions;     // vertices x eigenpairs
   SampleDistances distances;     // kept where they are small; else empty, and computed anew for each model
   double proxy_seconds = 0, spectrum_seconds = 0, descriptor_seconds = 0, geodesic_seconds = 0;
 

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "landmarks/atlas.h"
 #include "landmarks/confidence.h"
 #include "landmarks/model_parts.h"
 #include "landmarks/paper.h"
@@ -21,6 +22,8 @@ constexpr int32_t folds = 3;          // of the cross-fitted confidence
 // What the training keeps of one shape.
 struct LearnedShape {
   RowMatrixf targets;  // samples x landmarks: distance to the mark, NaN where there is none
+  std::vector<std::optional<SurfacePoint>> points;  // the marks, on the analysed surface
+  RowMatrixf fields;                                // distances of all vertices from those that are there
   ConstellationSample constellation;
 };
 
@@ -69,7 +72,10 @@ LearnedShape learn_shape(const MarkedShape& shape, const SurfaceAnalysis& analys
     if (shape.marks[l]) points.push_back(*shape.marks[l]), landmark.push_back(l);
   }
   points = to_coarse(analysis.proxy, points);
-  const RowMatrixf fields = analysis.heat.distances(points, execution);
+  result.points.resize(L);
+  for (size_t p = 0; p < points.size(); ++p) result.points[landmark[p]] = points[p];
+  result.fields = analysis.heat.distances(points, execution);
+  const RowMatrixf& fields = result.fields;
   result.targets = RowMatrixf::Constant(analysis.samples.size(), L, NAN);
   auto& constellation = result.constellation;
   constellation.distance = RowMatrixf::Zero(L, L);
@@ -119,6 +125,10 @@ void learn_parts(LandmarkModel& model, const std::vector<const SurfaceAnalysis*>
     }
   }
   model.constellation = learn_constellation(constellations, static_cast<int32_t>(L));
+  model.atlas.resize(learned.size());
+  parallel_for(execution, static_cast<int64_t>(learned.size()), [&](int64_t s) {
+    model.atlas[s] = remember_shape(*analyses[s], learned[s]->points, learned[s]->fields, model.reach);
+  });
   const ForestParams forest{.tree_count = model.params.tree_count,
                             .min_leaf_samples = model.params.min_leaf_samples,
                             .min_split_samples = 2 * model.params.min_leaf_samples,

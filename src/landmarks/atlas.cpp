@@ -1,0 +1,169 @@
+#include "landmarks/atlas.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "mesh/nearest_vertex.h"
+
+namespace focal {
+namespace {
+
+constexpr int32_t remembered_points = 800;  // of a training shape; 500 measured a tenth worse
+constexpr int32_t spread_targets = 1000;    // vertices that stand for all of them until the last round
+
+MatrixX3 rows_of(const MatrixX3& positions, const std::vector<int32_t>& rows) {
+  MatrixX3 result(rows.size(), 3);
+  for (size_t i = 0; i < rows.size(); ++i) result.row(i) = positions.row(rows[i]);
+  return result;
+}
+
+Eigen::VectorXf areas_round(const SurfaceAnalysis& analysis, const std::vector<int32_t>& points) {
+  const MatrixX3 positions = rows_of(analysis.surface().positions, points);
+  std::vector<int32_t> all(points.size());
+  std::iota(all.begin(), all.end(), 0);
+  const NearestVertex search(positions, all);
+  Eigen::VectorXf area = Eigen::VectorXf::Zero(static_cast<Eigen::Index>(points.size()));
+  for (int32_t v = 0; v < analysis.surface().vertex_count(); ++v)
+    area[search.nearest(analysis.surface().positions.row(v).transpose()).first] +=
+        static_cast<float>(analysis.operators.mass[v]);
+  return area;
+}
+
+// The point of the triangles round a vertex whose embedding is nearest to `place`.
+class EmbeddedSurface {
+ public:
+  EmbeddedSurface(const TriangleMesh& mesh, const RowMatrixf& Phi, const Eigen::MatrixXf& C)
+      : mesh_(mesh), Phi_(Phi), C_(C) {}
+
+  SurfacePoint nearest(const std::vector<int32_t>& triangles, const Eigen::VectorXf& place) const {
+    SurfacePoint best;
+    float least = std::numeric_limits<float>::infinity();
+    for (const int32_t t : triangles) {
+      const Eigen::VectorXf a = embedded(t, 0), ab = embedded(t, 1) - a, ac = embedded(t, 2) - a,
+                            ap = place - a;
+      const Vector3 weight =
+          closest_weights(ab.squaredNorm(), ab.dot(ac), ac.squaredNorm(), ab.dot(ap), ac.dot(ap));
+      const float away =
+          (ap - static_cast<float>(weight[1]) * ab - static_cast<float>(weight[2]) * ac).squaredNorm();
+      if (away < least) least = away, best = {t, weight};
+    }
+    return best;
+  }
+
+ private:
+  Eigen::VectorXf embedded(int32_t t, int corner) const {
+    return C_ * Phi_.row(mesh_.triangles(t, corner)).head(C_.cols()).transpose();
+  }
+
+  // Weights of the nearest point of a triangle, from the products of its sides from corner a and of the way to p.
+  static Vector3 closest_weights(double bb, double bc, double cc, double bp, double cp) {
+    const double det = bb * cc - bc * bc;
+    if (det > 0) {
+      const double b = (cc * bp - bc * cp) / det, c = (bb * cp - bc * bp) / det;
+      if (b >= 0 && c >= 0 && b + c <= 1) return {1 - b - c, b, c};
+    }
+    // Outside: the nearest of the three sides' nearest points.
+    const auto clamped = [](double along, double length) {
+      return length > 0 ? std::clamp(along / length, 0.0, 1.0) : 0.0;
+    };
+    const double b = clamped(bp, bb), c = clamped(cp, cc);
+    const double side = clamped(bb - bc + cp - bp, bb - 2 * bc + cc);  // from b to c
+    const Vector3 options[3] = {{1 - b, b, 0}, {1 - c, 0, c}, {0, 1 - side, side}};
+    const auto cost = [&](const Vector3& w) {  // squared distance, less a constant
+      return w[1] * w[1] * bb + 2 * w[1] * w[2] * bc + w[2] * w[2] * cc - 2 * (w[1] * bp + w[2] * cp);
+    };
+    return *std::min_element(options, options + 3,
+                             [&](const auto& x, const auto& y) { return cost(x) < cost(y); });
+  }
+
+  const TriangleMesh& mesh_;
+  const RowMatrixf& Phi_;
+  const Eigen::MatrixXf& C_;
+};
+
+// Where each remembered point starts: at the vertex with the most similar distances to the landmarks of both.
+std::vector<int32_t> first_images(const AtlasShape& shape, float reach, const std::vector<int32_t>& landmark,
+                                  const RowMatrixf& fields) {
+  std::vector<Eigen::Index> shared;
+  for (size_t p = 0; p < landmark.size(); ++p)
+    if (shape.marked[landmark[p]]) shared.push_back(static_cast<Eigen::Index>(p));
+  RowMatrixf there(shape.distances.rows(), shared.size()), here(fields.cols(), shared.size());
+  for (size_t s = 0; s < shared.size(); ++s) {
+    here.col(s) = fields.row(shared[s]).transpose();
+    there.col(s) = shape.distances.col(landmark[shared[s]]).cast<float>() * (reach / target_steps);
+  }
+  return nearest_rows(there, here);
+}
+
+CarriedMarks carry(const AtlasShape& shape, std::vector<int32_t> images, const SurfaceAnalysis& analysis,
+                   const SpectralTargets& targets, const std::vector<std::vector<int32_t>>& triangles_at,
+                   const MapParams& params) {
+  const auto L = static_cast<int32_t>(shape.marked.size());
+  const auto points = static_cast<int32_t>(images.size());
+  images.resize(points + L, 0);  // the marks follow, without weight
+  const FunctionalMap map = zoom_out(shape.samples, targets, std::move(images), params);
+  const EmbeddedSurface embedded(analysis.surface(), targets.Phi, map.C);
+  CarriedMarks result;
+  result.residual = map.residual;
+  result.point.resize(L);
+  for (int32_t l = 0; l < L; ++l)
+    if (shape.marked[l])
+      result.point[l] = embedded.nearest(triangles_at[map.image[points + l]],
+                                         shape.samples.Phi.row(points + l).head(map.C.rows()).transpose());
+  return result;
+}
+
+}  // namespace
+
+AtlasShape remember_shape(const SurfaceAnalysis& analysis,
+                          const std::vector<std::optional<SurfacePoint>>& points, const RowMatrixf& fields,
+                          float reach) {
+  const auto& surface = analysis.surface();
+  const auto& Phi = analysis.eigenfunctions;
+  const auto L = static_cast<Eigen::Index>(points.size());
+  const std::vector<int32_t> spread = farthest_points(surface.positions, remembered_points);
+  const auto count = static_cast<Eigen::Index>(spread.size());
+  AtlasShape shape;
+  shape.samples.Phi = RowMatrixf::Zero(count + L, Phi.cols());
+  shape.samples.weight = Eigen::VectorXf::Zero(count + L);
+  shape.samples.weight.head(count) = areas_round(analysis, spread);
+  shape.distances = TargetMatrix::Constant(count, L, target_missing);
+  for (Eigen::Index i = 0; i < count; ++i) shape.samples.Phi.row(i) = Phi.row(spread[i]);
+  Eigen::Index field = 0;
+  for (Eigen::Index l = 0; l < L; ++l) {
+    shape.marked.push_back(points[l].has_value());
+    if (!points[l]) continue;
+    for (int c = 0; c < 3; ++c)
+      shape.samples.Phi.row(count + l) +=
+          static_cast<float>(points[l]->barycentric[c]) * Phi.row(surface.triangles(points[l]->triangle, c));
+    for (Eigen::Index i = 0; i < count; ++i)
+      shape.distances(i, l) =
+          static_cast<uint16_t>(std::lround(std::min(fields(field, spread[i]) / reach, 1.0f) * target_steps));
+    ++field;
+  }
+  shape.step = std::max(shape.samples.Phi.cwiseAbs().maxCoeff(), 1e-6f) / (atlas_zero - 1);
+  for (float& value : shape.samples.Phi.reshaped()) value = std::round(value / shape.step) * shape.step;
+  return shape;
+}
+
+SpectralTargets spectral_targets(const SurfaceAnalysis& analysis) {
+  return {analysis.eigenfunctions, farthest_points(analysis.surface().positions, spread_targets)};
+}
+
+std::vector<CarriedMarks> carry_marks(const std::vector<AtlasShape>& atlas, float reach,
+                                      const SurfaceAnalysis& analysis, const SpectralTargets& targets,
+                                      const std::vector<int32_t>& landmark, const RowMatrixf& fields,
+                                      const MapParams& params, const Execution& execution) {
+  std::vector<std::vector<int32_t>> triangles_at(analysis.surface().vertex_count());
+  for (int32_t t = 0; t < analysis.surface().triangle_count(); ++t)
+    for (int i = 0; i < 3; ++i) triangles_at[analysis.surface().triangles(t, i)].push_back(t);
+  std::vector<CarriedMarks> result(atlas.size());
+  parallel_for(execution, static_cast<int64_t>(atlas.size()), [&](int64_t s) {
+    result[s] = carry(atlas[s], first_images(atlas[s], reach, landmark, fields), analysis, targets,
+                      triangles_at, params);
+  });
+  return result;
+}
+
+}  // namespace focal

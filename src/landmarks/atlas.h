@@ -1,0 +1,33 @@
+// The training shapes as the model remembers them: enough of each to map it onto a new shape and to carry its marks over.
+// Many such maps agree where the votes of a forest blur, and disagree where nothing is certain.
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "landmarks/model_parts.h"
+#include "landmarks/surface_analysis.h"
+
+namespace focal {
+
+// points: the marks on the analysed surface, one a landmark or none; fields: the distance of every vertex from those that
+// are there, in their order.
+AtlasShape remember_shape(const SurfaceAnalysis& analysis,
+                          const std::vector<std::optional<SurfacePoint>>& points, const RowMatrixf& fields,
+                          float reach);
+
+// What one training shape says of a new one.
+struct CarriedMarks {
+  std::vector<std::optional<SurfacePoint>> point;  // one a landmark, where it is marked on the training shape
+  float residual = 0;                              // of the map: small where the shapes are alike
+};
+
+// landmark, point: those placed so far, which the maps start from; fields: their distances, as above.
+// spectral: the analysed surface as the target of maps (see spectral_targets).
+std::vector<CarriedMarks> carry_marks(const std::vector<AtlasShape>& atlas, float reach,
+                                      const SurfaceAnalysis& analysis, const SpectralTargets& targets,
+                                      const std::vector<int32_t>& landmark, const RowMatrixf& fields,
+                                      const MapParams& params, const Execution& execution);
+
+SpectralTargets spectral_targets(const SurfaceAnalysis& analysis);
+
+}  // namespace focal

@@ -1,0 +1,219 @@
+#include "spectrum/functional_map.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/aligned_array.h"
+#include "base/multiversion.h"
+#include "linear/block_kernels.h"
+
+namespace focal {
+namespace {
+
+constexpr int lanes = 32;
+constexpr int64_t tile = 4;  // of the block kernels: rows come in fours
+
+int64_t round_up(int64_t n, int64_t to) { return (n + to - 1) / to * to; }
+
+// Rows of a matrix, 32 of them side by side: entry (i, c) is at [(i / 32 * columns + c) * 32 + i % 32]. The last block
+// is filled up with copies of the last row.
+class RowBlocks {
+ public:
+  template <class RowOf>  // RowOf(i): pointer to `columns` floats
+  RowBlocks(int64_t rows, int64_t columns, const RowOf& row_of)
+      : columns_(columns), blocks_((rows + lanes - 1) / lanes), data_(blocks_ * columns * lanes) {
+    for (int64_t i = 0; i < blocks_ * lanes; ++i) {
+      const float* row = row_of(std::min(i, rows - 1));
+      float* to = data_.data() + i / lanes * columns * lanes + i % lanes;
+      for (int64_t c = 0; c < columns; ++c) to[c * lanes] = row[c];
+    }
+  }
+  int64_t blocks() const { return blocks_; }
+  const float* block(int64_t b) const { return data_.data() + b * columns_ * lanes; }
+
+ private:
+  int64_t columns_, blocks_;
+  AlignedArray<float> data_;
+};
+
+FOCAL_MULTIVERSION(
+    void keep_best(const float* score, int32_t block, int64_t rows, float* best, int32_t* best_block),
+    for (int64_t i = 0; i < rows * lanes; ++i) {
+      const bool better = score[i] > best[i];
+      best[i] = better ? score[i] : best[i];
+      best_block[i] = better ? block : best_block[i];
+    })
+
+// Nearest targets by blocks: score = place . target - |target|^2 / 2 is largest where the distance is smallest.
+class NearestSearch {
+ public:
+  explicit NearestSearch(int64_t places)
+      : rows_(places),
+        padded_(round_up(places, tile)),
+        score_(std::min(chunk, padded_) * lanes),
+        best_(padded_ * lanes),
+        best_block_(padded_ * lanes) {
+    std::fill_n(best_.data(), best_.size(), -std::numeric_limits<float>::infinity());
+  }
+
+  // places: padded rows; target: k x 32.
+  void look_at(const StridedView<float>& places, int64_t k, const float* target, int32_t block) {
+    float half[lanes] = {};
+    for (int64_t c = 0; c < k; ++c)
+      for (int j = 0; j < lanes; ++j) half[j] += target[c * lanes + j] * target[c * lanes + j];
+    for (int64_t begin = 0; begin < padded_; begin += chunk) {
+      const int64_t rows = std::min(chunk, padded_ - begin);
+      for (int64_t r = 0; r < rows; ++r)
+        for (int j = 0; j < lanes; ++j) score_.data()[r * lanes + j] = -half[j] / 2;
+      multiply_add({places.data + begin * places.row_step, places.row_step, places.inner_step}, rows, k,
+                   target, score_.data());
+      keep_best(score_.data(), block, rows, best_.data() + begin * lanes, best_block_.data() + begin * lanes);
+    }
+  }
+
+  // Numbers of the nearest targets; `last` is the largest there is.
+  std::vector<int32_t> result(int32_t last) const {
+    std::vector<int32_t> nearest(rows_);
+    for (int64_t r = 0; r < rows_; ++r) {
+      float best = -std::numeric_limits<float>::infinity();
+      for (int j = 0; j < lanes; ++j) {
+        const int32_t target = std::min(best_block_.data()[r * lanes + j] * lanes + j, last);
+        const float score = best_.data()[r * lanes + j];
+        if (score > best || (score == best && target < nearest[r])) best = score, nearest[r] = target;
+      }
+    }
+    return nearest;
+  }
+
+ private:
+  static constexpr int64_t chunk = 256;
+  int64_t rows_, padded_;
+  AlignedArray<float> score_, best_;
+  AlignedArray<int32_t> best_block_;
+};
+
+RowMatrixf padded_rows(const RowMatrixf& rows) {
+  RowMatrixf result = RowMatrixf::Zero(round_up(rows.rows(), tile), rows.cols());
+  result.topRows(rows.rows()) = rows;
+  return result;
+}
+
+// One map in the making.
+class ZoomOut {
+ public:
+  ZoomOut(const SpectralSamples& from, const SpectralTargets& to, std::vector<int32_t> initial)
+      : from_(from),
+        to_(to),
+        points_(padded_rows(from.Phi)),
+        weighted_(RowMatrixf::Zero(points_.rows(), points_.cols())),
+        spread_(static_cast<int64_t>(to.spread.size()), to.Phi.cols(),
+                [&](int64_t i) { return to.Phi.row(to.spread[i]).data(); }),
+        all_(to.Phi.rows(), to.Phi.cols(), [&](int64_t i) { return to.Phi.row(i).data(); }) {
+    weighted_.topRows(from.Phi.rows()) = from.weight.asDiagonal() * from.Phi;
+    gram_ = Eigen::LLT<Eigen::MatrixXf>(from.Phi.transpose() * weighted_.topRows(from.Phi.rows())).matrixL();
+    map_.image = std::move(initial);
+  }
+
+  FunctionalMap run(const MapParams& params) {
+    const auto most =
+        static_cast<int32_t>(std::min({Eigen::Index{params.last}, points_.cols(), to_.Phi.cols()}) / 4 * 4);
+    for (int32_t k = std::min(params.first, most);; k = std::min(k + params.step, most)) {
+      fit(k);
+      const bool last = k == most;
+      assign(last ? all_ : spread_, k);
+      if (last) break;
+      for (int32_t& i : map_.image) i = to_.spread[i];
+    }
+    measure();
+    return std::move(map_);
+  }
+
+ private:
+  // C = (Phi^T W Phi)^-1 Phi^T W Phi_to(images): the least-squares fit.
+  void fit(int32_t k) {
+    const int64_t rows = points_.rows(), known = from_.Phi.rows();
+    map_.C.resize(k, k);
+    AlignedArray<float> images(rows * lanes), product(round_up(k, tile) * lanes);
+    for (int32_t begin = 0; begin < k; begin += lanes) {
+      const int32_t count = std::min(lanes, k - begin);
+      std::fill_n(images.data(), images.size(), 0.0f);
+      for (int64_t y = 0; y < known; ++y)
+        std::copy_n(to_.Phi.row(map_.image[y]).data() + begin, count, images.data() + y * lanes);
+      std::fill_n(product.data(), product.size(), 0.0f);
+      multiply_add({weighted_.data(), 1, weighted_.cols()}, k, rows, images.data(), product.data());
+      map_.C.middleCols(begin, count) =
+          Eigen::Map<const RowMatrixf>(product.data(), k, lanes).leftCols(count);
+    }
+    // A leading block of a Cholesky factor is the factor of the leading block.
+    const auto L = gram_.topLeftCorner(k, k).triangularView<Eigen::Lower>();
+    L.solveInPlace(map_.C);
+    L.transpose().solveInPlace(map_.C);
+  }
+
+  void assign(const RowBlocks& targets, int32_t k) {
+    NearestSearch search(static_cast<int64_t>(map_.image.size()));
+    const RowMatrixf C = map_.C;
+    AlignedArray<float> moved(static_cast<size_t>(k) * lanes);
+    for (int64_t b = 0; b < targets.blocks(); ++b) {
+      std::fill_n(moved.data(), moved.size(), 0.0f);
+      multiply_add({C.data(), k, 1}, k, k, targets.block(b), moved.data());
+      search.look_at({points_.data(), points_.cols(), 1}, k, moved.data(), static_cast<int32_t>(b));
+    }
+    const bool all = &targets == &all_;
+    map_.image =
+        search.result(static_cast<int32_t>(all ? to_.Phi.rows() : Eigen::Index(to_.spread.size())) - 1);
+  }
+
+  void measure() {
+    const Eigen::Index k = map_.C.rows();
+    double away = 0, size = 0;
+    for (size_t y = 0; y < map_.image.size(); ++y) {
+      const Eigen::VectorXf image = map_.C * to_.Phi.row(map_.image[y]).head(k).transpose();
+      const auto place = points_.row(y).head(k).transpose();
+      away += from_.weight[y] * (place - image).squaredNorm(), size += from_.weight[y] * place.squaredNorm();
+    }
+    map_.residual = static_cast<float>(std::sqrt(away / size));
+  }
+
+  const SpectralSamples& from_;
+  const SpectralTargets& to_;
+  RowMatrixf points_, weighted_;
+  RowBlocks spread_, all_;
+  Eigen::MatrixXf gram_;
+  FunctionalMap map_;
+};
+
+}  // namespace
+
+FunctionalMap zoom_out(const SpectralSamples& from, const SpectralTargets& to, std::vector<int32_t> initial,
+                       const MapParams& params) {
+  return ZoomOut(from, to, std::move(initial)).run(params);
+}
+
+std::vector<int32_t> nearest_rows(const RowMatrixf& places, const RowMatrixf& targets) {
+  const RowMatrixf padded = padded_rows(places);
+  const RowBlocks blocks(targets.rows(), targets.cols(), [&](int64_t i) { return targets.row(i).data(); });
+  NearestSearch search(places.rows());
+  for (int64_t b = 0; b < blocks.blocks(); ++b)
+    search.look_at({padded.data(), padded.cols(), 1}, padded.cols(), blocks.block(b),
+                   static_cast<int32_t>(b));
+  return search.result(static_cast<int32_t>(targets.rows()) - 1);
+}
+
+std::vector<int32_t> farthest_points(const MatrixX3& positions, int32_t count, int32_t first) {
+  const auto n = static_cast<int32_t>(positions.rows());
+  Vector away = Vector::Constant(n, std::numeric_limits<double>::infinity());
+  std::vector<int32_t> chosen;
+  for (int32_t next = first; static_cast<int32_t>(chosen.size()) < std::min(count, n);) {
+    chosen.push_back(next);
+    away = away.cwiseMin((positions.rowwise() - positions.row(next)).rowwise().squaredNorm());
+    Eigen::Index farthest = 0;
+    away.maxCoeff(&farthest);
+    next = static_cast<int32_t>(farthest);
+  }
+  return chosen;
+}
+
+}  // namespace focal

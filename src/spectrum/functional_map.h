@@ -1,0 +1,49 @@
+// Maps between two surfaces as small matrices between their eigenbases (M. Ovsjanikov et al., "Functional Maps: A Flexible
+// Representation of Maps Between Shapes", 2012), refined by spectral upsampling (S. Melzi et al., "ZoomOut: Spectral
+// Upsampling for Efficient Shape Correspondence", 2019).
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/matrix.h"
+
+namespace focal {
+
+// Points spread over a surface of area 1, with the values of its eigenfunctions there.
+struct SpectralSamples {
+  RowMatrixf Phi;          // points x k
+  Eigen::VectorXf weight;  // the area that each point stands for; 0: it is carried along, but has no say
+};
+
+// The surface that is mapped to: its eigenfunctions at all vertices, and some vertices spread over it, which stand for
+// all of them until the last round.
+struct SpectralTargets {
+  RowMatrixf Phi;  // vertices x k
+  std::vector<int32_t> spread;
+};
+
+struct MapParams {
+  int32_t first = 20, last = 120, step = 20;  // eigenfunctions used, from round to round
+};
+
+// Phi_from C is about Phi_to at the images; Phi_to C^T carries the targets into the embedding of `from`, where points are
+// compared.
+struct FunctionalMap {
+  Eigen::MatrixXf C;           // k x k
+  std::vector<int32_t> image;  // per point: the nearest vertex of the targets
+  float residual =
+      0;  // how far the points lie from their images in the embedding: root mean square, of their size
+};
+
+// Refines `initial`, the vertex of `to` where each point lies at first. Both have at least 4 eigenfunctions.
+FunctionalMap zoom_out(const SpectralSamples& from, const SpectralTargets& to, std::vector<int32_t> initial,
+                       const MapParams& params);
+
+// Per row of places the nearest row of targets; the first of equal ones.
+std::vector<int32_t> nearest_rows(const RowMatrixf& places, const RowMatrixf& targets);
+
+// `count` points, each the one farthest from those before it, starting with `first`.
+std::vector<int32_t> farthest_points(const MatrixX3& positions, int32_t count, int32_t first = 0);
+
+}  // namespace focal
