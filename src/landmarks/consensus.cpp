@@ -12,11 +12,12 @@ namespace {
 
 // All chosen by cross-validation on training splits of nine categories; the errors are flat round them.
 constexpr MapParams full_maps{.first = 20, .last = 120, .step = 8};
-constexpr MapParams quick_maps{.first = 20, .last = 60, .step = 8};
-constexpr double residual_weight = 40;     // of a choice's log residual, against its log energy
-constexpr double alike_falloff = 30;       // a map counts exp(-falloff (residual - least residual))
-constexpr double outlier_distance = 0.03;  // of sqrt(area): marks farther from the consensus count less
-constexpr int rounds = 8;                  // of reweighting
+constexpr MapParams quick_maps{
+    .first = 20, .last = 120, .step = 20};  // tell the choices apart better than fewer functions do
+constexpr double residual_weight = 40;      // of a choice's log residual, against its log energy
+constexpr double alike_falloff = 30;        // a map counts exp(-falloff (residual - least residual))
+constexpr double outlier_distance = 0.03;   // of sqrt(area): marks farther from the consensus count less
+constexpr int rounds = 8;                   // of reweighting
 
 struct Opinion {
   Vector3 position;
