@@ -1,27 +1,43 @@
-// Inner loops compiled once for each vector width; the loader picks the widest that the processor has.
+// Inner loops compiled once for each vector width; the widest that the processor has is chosen at run time.
 #pragma once
-#include <cstdint>  // any libc header, for __GLIBC__: the choice needs its indirect functions
+#include <atomic>
+#include <cstdint>
+
+namespace focal {
+
+enum class InstructionSet : int32_t { baseline = 0, avx2 = 1, avx512 = 2 };
+
+// The widest set of this processor, or less where limited; baseline until the library is initialised.
+extern std::atomic<InstructionSet> chosen_instruction_set;
+inline InstructionSet instruction_set() { return chosen_instruction_set.load(std::memory_order_relaxed); }
+// For tests, which compare the sets of one machine: no kernel goes beyond `widest` from now on. Not while kernels run.
+void limit_instruction_set(InstructionSet widest);
+
+}  // namespace focal
 
 // FOCAL_MULTIVERSION(void kernel(float* x, int n), body<vector_bytes>(x, n);) defines `kernel`, its body
 // compiled with vector_bytes = 16, 32 (AVX2) and 64 (AVX-512). Give what the body calls FOCAL_INLINE, so that
 // it is compiled for the same processor. With -ffp-contract=off all versions give the same bits, if they add
-// in the same order. Only callers in the same file get the choice, so a kernel belongs in an anonymous
-// namespace. Sanitizers cannot run while the loader chooses: there, and on other systems, only one version
-// exists.
-#if defined(__x86_64__) && defined(__GLIBC__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define FOCAL_MULTIVERSION(signature, ...)            \
-  [[gnu::target("default")]] signature {              \
-    [[maybe_unused]] constexpr int vector_bytes = 16; \
-    __VA_ARGS__                                       \
-  }                                                   \
-  [[gnu::target("avx2,fma")]] signature {             \
-    [[maybe_unused]] constexpr int vector_bytes = 32; \
-    __VA_ARGS__                                       \
-  }                                                   \
-  [[gnu::target("avx512f,fma")]] signature {          \
-    [[maybe_unused]] constexpr int vector_bytes = 64; \
-    __VA_ARGS__                                       \
+// in the same order. On other processors there is one version, of 16 bytes: what NEON has.
+#if defined(__x86_64__) && defined(__GNUC__)
+#define FOCAL_VERSION(features, bytes, ...)                  \
+  return [&]() __attribute__((target(features), noinline)) { \
+    [[maybe_unused]] constexpr int vector_bytes = bytes;     \
+    __VA_ARGS__                                              \
+  }                                                          \
+  ()
+#define FOCAL_MULTIVERSION(signature, ...)                  \
+  signature {                                               \
+    switch (::focal::instruction_set()) {                   \
+      case ::focal::InstructionSet::avx512:                 \
+        FOCAL_VERSION("avx512f,avx2,fma", 64, __VA_ARGS__); \
+      case ::focal::InstructionSet::avx2:                   \
+        FOCAL_VERSION("avx2,fma", 32, __VA_ARGS__);         \
+      default:                                              \
+        break;                                              \
+    }                                                       \
+    [[maybe_unused]] constexpr int vector_bytes = 16;       \
+    __VA_ARGS__                                             \
   }
 #else
 #define FOCAL_MULTIVERSION(signature, ...)            \

@@ -31,18 +31,19 @@ Face face_of(const TriangleMesh& mesh, int32_t t, const MatrixX3& normals) {
 std::vector<int32_t> disc_round(const TriangleMesh& mesh, const SurfacePoint& point, const float* field,
                                 double radius) {
   std::vector<int32_t> disc, ring;
-  const Eigen::RowVector3i own = mesh.triangles.row(point.triangle);
+  const auto& corner = mesh.triangles;
+  for (int32_t t = 0; t < mesh.triangle_count(); ++t)
+    if (field[corner(t, 0)] < radius && field[corner(t, 1)] < radius && field[corner(t, 2)] < radius)
+      disc.push_back(t);
+  if (disc.size() >= 4) return disc;
   for (int32_t t = 0; t < mesh.triangle_count(); ++t) {
-    bool inside = true, touches = false;
-    for (int i = 0; i < 3; ++i) {
-      const int32_t v = mesh.triangles(t, i);
-      inside = inside && field[v] < radius;
-      for (int k = 0; k < 3; ++k) touches = touches || (point.barycentric[k] > 0 && own[k] == v);
-    }
-    if (inside) disc.push_back(t);
+    bool touches = false;
+    for (int i = 0; i < 3; ++i)
+      for (int k = 0; k < 3; ++k)
+        touches = touches || (point.barycentric[k] > 0 && corner(point.triangle, k) == corner(t, i));
     if (touches) ring.push_back(t);
   }
-  return disc.size() < 4 ? ring : disc;
+  return ring;
 }
 
 }  // namespace

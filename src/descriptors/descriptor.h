@@ -4,6 +4,7 @@
 #include <span>
 
 #include "base/matrix.h"
+#include "base/parallel.h"
 #include "spectrum/eigenbasis.h"
 
 namespace focal {
@@ -13,6 +14,7 @@ inline constexpr int32_t si_hks_dimension = 96;
 // Scale-invariant heat kernel signature (M. Bronstein, I. Kokkinos, "Scale-Invariant Heat Kernel Signatures for
 // Non-Rigid Shape Recognition", 2010) with the times and frequencies of Xia et al. 2016, Section 5.
 // area: of the surface; vertices: the rows of basis.Phi to describe. Returns vertices x 96, >= 0, no unit.
-RowMatrix si_hks(const Eigenbasis& basis, double area, std::span<const int32_t> vertices);
+RowMatrix si_hks(const Eigenbasis& basis, double area, std::span<const int32_t> vertices,
+                 const Execution& execution = Execution().inner());
 
 }  // namespace focal

@@ -1,12 +1,16 @@
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "base/aligned_array.h"
 #include "descriptors/descriptor.h"
+#include "linear/block_kernels.h"
 
 namespace focal {
 namespace {
 
+constexpr int lanes = 32;
 constexpr int time_count = 241;  // tau = 1, 1.1, ... 25
 constexpr int frequency_count = 20;
 constexpr double reference_area = 2e4;  // the scale of the Shape-Google database, to which the times belong
@@ -32,38 +36,84 @@ Matrix spline_matrix() {
     result(k, i) += a, result(k, i + 1) += b;
     result.row(k) += ((a * a * a - a) * second.row(i) + (b * b * b - b) * second.row(i + 1)) / 6;
   }
-  return result.transpose();
+  return result;
 }
 
 // Fourier transform of 240 differences, lowest 20 frequencies: real parts, then imaginary parts.
 Matrix fourier_matrix() {
   constexpr int n = time_count - 1;
-  Matrix result(n, 2 * frequency_count);
+  Matrix result(2 * frequency_count, n);
   for (int i = 0; i < n; ++i)
     for (int f = 0; f < frequency_count; ++f) {
       const double angle = 2 * std::numbers::pi * f * i / n;
-      result(i, f) = std::cos(angle), result(i, frequency_count + f) = -std::sin(angle);
+      result(f, i) = std::cos(angle), result(frequency_count + f, i) = -std::sin(angle);
     }
   return result;
 }
 
+// Sums of products for 32 samples at a time, which lie side by side: C = A B.
+class Product {
+ public:
+  explicit Product(const Matrix& A) : rows_((A.rows() + 3) / 4 * 4), inner_(A.cols()), A_(rows_ * inner_) {
+    Eigen::Map<Matrix> padded(A_.data(), rows_, inner_);
+    padded.setZero();
+    padded.topRows(A.rows()) = A;
+  }
+  void apply(const double* B, double* C) const {
+    std::fill_n(C, rows_ * lanes, 0.0);
+    multiply_add(StridedView<double>{A_.data(), 1, rows_}, rows_, inner_, B, C);
+  }
+  int64_t size() const { return rows_ * lanes; }
+
+ private:
+  int64_t rows_, inner_;
+  AlignedArray<double> A_;  // by columns
+};
+
+struct Steps {
+  Product decay, fourier, spline;
+};
+
+// The signatures of up to 32 vertices; samples that are missing repeat the first.
+void describe(const Steps& steps, const Eigenbasis& basis, double scale, std::span<const int32_t> vertices,
+              double* result) {
+  const Eigen::Index k = basis.Phi.cols();
+  const AlignedArray<double> squared(k * lanes), hks(steps.decay.size()), spectrum(steps.fourier.size()),
+      magnitude(frequency_count * lanes), values(steps.spline.size());
+  for (Eigen::Index i = 0; i < k; ++i)
+    for (size_t j = 0; j < lanes; ++j) {
+      const double phi = basis.Phi(vertices[j < vertices.size() ? j : 0], i);
+      squared.data()[i * lanes + j] = phi * phi * scale;
+    }
+  steps.decay.apply(squared.data(), hks.data());
+  double* log_hks = hks.data();
+  for (int i = 0; i < time_count * lanes; ++i) log_hks[i] = std::log(std::max(log_hks[i], 1e-300));
+  for (int i = 0; i < (time_count - 1) * lanes; ++i) log_hks[i] = log_hks[i + lanes] - log_hks[i];
+  steps.fourier.apply(log_hks, spectrum.data());
+  for (int i = 0; i < frequency_count * lanes; ++i) {
+    const double real = spectrum.data()[i], imaginary = spectrum.data()[frequency_count * lanes + i];
+    magnitude.data()[i] = std::sqrt(real * real + imaginary * imaginary);
+  }
+  steps.spline.apply(magnitude.data(), values.data());
+  for (size_t j = 0; j < vertices.size(); ++j)
+    for (int i = 0; i < si_hks_dimension; ++i)
+      result[j * si_hks_dimension + i] = values.data()[i * lanes + j];
+}
+
 }  // namespace
 
-RowMatrix si_hks(const Eigenbasis& basis, double area, std::span<const int32_t> vertices) {
+RowMatrix si_hks(const Eigenbasis& basis, double area, std::span<const int32_t> vertices,
+                 const Execution& execution) {
   const double scale = area / reference_area;  // eigenvalues of the shape scaled to the reference area
-  Matrix decay(basis.lambda.size(), time_count);
+  Matrix decay(time_count, basis.lambda.size());
   for (int k = 0; k < time_count; ++k)
-    decay.col(k) = (-basis.lambda.array() * scale * std::exp2(1 + 0.1 * k)).exp();
-  Matrix squared(vertices.size(), basis.Phi.cols());
-  for (size_t v = 0; v < vertices.size(); ++v)
-    squared.row(v) = basis.Phi.row(vertices[v]).array().square() * scale;
-  const Matrix log_hks = (squared * decay).array().max(1e-300).log();
-  const Matrix derivative = log_hks.rightCols(time_count - 1) - log_hks.leftCols(time_count - 1);
-  const Matrix spectrum = derivative * fourier_matrix();
-  const Matrix magnitude = (spectrum.leftCols(frequency_count).array().square() +
-                            spectrum.rightCols(frequency_count).array().square())
-                               .sqrt();
-  return magnitude * spline_matrix();
+    decay.row(k) = (-basis.lambda.array() * scale * std::exp2(1 + 0.1 * k)).exp();
+  const Steps steps{Product(decay), Product(fourier_matrix()), Product(spline_matrix())};
+  RowMatrix result(vertices.size(), si_hks_dimension);
+  parallel_for_ranges(execution, result.rows(), lanes, [&](int64_t begin, int64_t end) {
+    describe(steps, basis, scale, vertices.subspan(begin, end - begin), &result(begin, 0));
+  });
+  return result;
 }
 
 }  // namespace focal

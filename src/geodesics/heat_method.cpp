@@ -95,22 +95,31 @@ FOCAL_MULTIVERSION(void add_faces_signed(const Faces& faces, const double* heat,
 HeatMethod::HeatMethod(const TriangleMesh& mesh, const Operators& operators, const Execution& execution,
                        double time_factor, bool keep_negative_heat)
     : keep_negative_heat_(keep_negative_heat) {
+  execution.check_cancelled();
+  const auto symbolic = std::make_shared<const SymbolicFactor>(analyse_pattern(operators.L));
+  parallel_for(execution, 2, [&](int64_t part) {
+    if (part == 0) {
+      choose_time(mesh, operators, time_factor);
+      heat_ = SparseCholesky(plus_diagonal(time_ * operators.L, operators.mass), symbolic);
+    } else {  // The shift makes L definite. The constant mode is amplified by its inverse: 1e-6 leaves the float solve
+      // five digits.
+      poisson_ = SparseCholesky(plus_diagonal(operators.L, 1e-6 / operators.area * operators.mass), symbolic);
+    }
+  });
+  execution.check_cancelled();
+  sort_faces(mesh, operators);
+}
+
+void HeatMethod::choose_time(const TriangleMesh& mesh, const Operators& operators, double time_factor) {
   const double step = std::sqrt(time_factor) * operators.mean_edge;
   distance_bound_ = diameter_bound(mesh, operators.L);
   const double smallest = distance_bound_ / representable_decay;
   time_was_raised_ = smallest > step;
   time_ = std::pow(std::max(step, smallest), 2);
-  execution.check_cancelled();
-  heat_ = SparseCholesky(plus_diagonal(time_ * operators.L, operators.mass));
-  execution.check_cancelled();
-  // The shift makes L definite. The constant mode is amplified by its inverse: 1e-6 leaves the float solve five digits.
-  poisson_ = SparseCholesky(plus_diagonal(operators.L, 1e-6 / operators.area * operators.mass), heat_);
-  execution.check_cancelled();
-  const auto& permutation = heat_.permutation();
-  if (permutation != poisson_.permutation())
-    throw Error(Status::internal, "the two factors of the heat method are ordered differently",
-                "report this");
+}
 
+void HeatMethod::sort_faces(const TriangleMesh& mesh, const Operators& operators) {
+  const auto& permutation = heat_.permutation();
   const MatrixX3i& triangles = operators.triangles;
   const auto m = static_cast<int32_t>(triangles.rows());
   positions_ = mesh.positions, triangles_ = mesh.triangles;

@@ -40,6 +40,8 @@ class HeatMethod {
   // No two vertices are farther apart.
   double distance_bound() const { return distance_bound_; }
   int32_t vertex_count() const { return heat_.size(); }
+  // The analysis of L's pattern, for other factors of the same surface.
+  std::shared_ptr<const SymbolicFactor> symbolic() const { return heat_.symbolic(); }
 
  private:
   struct Source {
@@ -47,6 +49,8 @@ class HeatMethod {
     double weight[3];
     float corner_distance = 0;  // weighted mean of the corners' distances from the source
   };
+  void choose_time(const TriangleMesh& mesh, const Operators& operators, double time_factor);
+  void sort_faces(const TriangleMesh& mesh, const Operators& operators);
   void solve_block(std::span<const Source> sources, double* heat, float* distance, float* out) const;
   void run(std::span<const Source> sources, const Execution& execution, const BlockSink& sink) const;
 

@@ -49,7 +49,8 @@ DetectedLandmark landmark_at(const LandmarkModel& model, const Proxy& proxy, con
 }
 
 std::vector<DetectedLandmark> landmarks_at(const LandmarkModel& model, const SurfaceAnalysis& analysis,
-                                           const Placement& placement, const DetectParams& params) {
+                                           const Placement& placement, const DetectParams& params,
+                                           const Execution& execution) {
   const auto L = placement.vertex.size();
   std::vector<int32_t> rivals;
   for (const int32_t rival : placement.rival) rivals.push_back(std::max(rival, 0));
@@ -58,7 +59,7 @@ std::vector<DetectedLandmark> landmarks_at(const LandmarkModel& model, const Sur
     if (placement.vertex[l] < 0) places[l].triangle = 0;  // stands for none
   const auto rival_places = points_at(analysis.surface(), rivals);
   places.insert(places.end(), rival_places.begin(), rival_places.end());
-  const auto full = to_full(analysis.proxy, places);
+  const auto full = to_full(analysis.proxy, places, execution);
   std::vector<DetectedLandmark> result;
   for (size_t l = 0; l < L; ++l)
     result.push_back(
@@ -118,7 +119,7 @@ Detection detect(std::shared_ptr<const LandmarkModel> model, const SurfaceAnalys
             : place_landmarks(*model, analysis, params.max_samples, params, execution, result.seconds);
   execution.begin_stage("landmarks", 0.9, 1);
   Stopwatch mapping;
-  result.landmarks = landmarks_at(*model, analysis, placement, params);
+  result.landmarks = landmarks_at(*model, analysis, placement, params, execution);
   result.seconds.refine += mapping.lap();
   result.category_fit = paper ? 1 : category_fit_of(model->calibration, placement.evidence);
   if (analysis.heat.time_was_raised())

@@ -1,8 +1,11 @@
 #include "landmarks/leaf_votes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+
+#include "base/multiversion.h"
 
 namespace focal {
 namespace {
@@ -12,58 +15,96 @@ constexpr double bin_width =
 constexpr double smoothing =
     0.024;                // standard deviation of the Gaussian, likewise; measured in the reference
 constexpr double mu = 5;  // Xia et al. 2016, Section 5
+constexpr int half = 8;   // of the kernel's entries: 4 standard deviations
 
 // Entry i: at i + 1/2 bins from the centre of a bin, where the table has its rows.
-std::vector<float> gaussian_kernel() {
-  std::vector<float> kernel(static_cast<size_t>(std::ceil(4 * smoothing / bin_width)));
-  for (size_t i = 0; i < kernel.size(); ++i)
+std::array<float, half> gaussian_kernel() {
+  std::array<float, half> kernel;
+  for (int i = 0; i < half; ++i)
     kernel[i] = static_cast<float>(std::exp(-0.5 * std::pow((i + 0.5) * bin_width / smoothing, 2)) *
                                    bin_width / (smoothing * std::sqrt(2 * std::numbers::pi)));
   return kernel;
 }
 
-// bins x landmarks: how often the leaves' samples lie at each distance, all trees weighing the same.
-RowMatrixf leaf_histogram(const LandmarkModel& model, const float* descriptor, int32_t bins) {
-  RowMatrixf histogram = RowMatrixf::Zero(bins, model.targets.cols());
-  const auto& trees = model.forests[0].trees;
-  const float to_bin = model.reach / target_steps / static_cast<float>(bin_width);
-  for (const RegressionTree& tree : trees) {
-    const int32_t leaf = tree.leaf_of(descriptor);
-    const int32_t begin = tree.leaf_start[leaf], end = tree.leaf_start[leaf + 1];
-    const float weight = 1.0f / static_cast<float>((end - begin) * static_cast<int64_t>(trees.size()));
-    for (int32_t i = begin; i < end; ++i) {
-      const auto target = model.targets.row(tree.leaf_samples[i]);
-      for (Eigen::Index l = 0; l < target.size(); ++l)
-        if (target[l] != target_missing)
-          histogram(std::min(static_cast<int32_t>(static_cast<float>(target[l]) * to_bin), bins - 1), l) +=
-              weight;
+// Rows of a table from the rows of a histogram, which begins `half` rows early and ends as many late.
+struct Smoothing {
+  const float* histogram;
+  const float* decay;
+  std::array<float, half> kernel;
+  int64_t rows, stride;
+};
+
+FOCAL_INLINE void smooth_body(const Smoothing& s, float* table) {
+  typedef float Lane __attribute__((vector_size(32), may_alias, aligned(4)));
+  for (int64_t r = 0; r < s.rows; ++r)
+    for (int64_t lane = 0; lane < s.stride; lane += 8) {
+      const float* at = s.histogram + (r + half) * s.stride + lane;  // bin r, which begins at row r
+      Lane sum{};
+      for (int i = 0; i < half; ++i)
+        sum += s.kernel[i] * (*reinterpret_cast<const Lane*>(at - (i + 1) * s.stride) +
+                              *reinterpret_cast<const Lane*>(at + i * s.stride));
+      *reinterpret_cast<Lane*>(table + r * s.stride + lane) = s.decay[r] * sum;
     }
-  }
-  return histogram;
 }
+FOCAL_MULTIVERSION(void smooth(const Smoothing& s, float* table), smooth_body(s, table);)
 
 }  // namespace
 
-VoteTables leaf_vote_tables(const LandmarkModel& model, const Eigen::Ref<const RowMatrixf>& descriptors,
-                            const Execution& execution) {
-  const auto bins = static_cast<int32_t>(model.reach / bin_width) + 2;
+LeafVotes::LeafVotes(const LandmarkModel& model, const Eigen::Ref<const RowMatrixf>& descriptors,
+                     const Execution& execution)
+    : model_(model),
+      bins_(static_cast<int32_t>(model.reach / bin_width) + 2),
+      stride_(VoteTables::padded(static_cast<int32_t>(model.targets.cols()))),
+      target_bin_(static_cast<size_t>(model.targets.rows()) * stride_, static_cast<uint16_t>(bins_)),
+      decay_(bins_ + 1) {
+  for (int32_t r = 0; r <= bins_; ++r)
+    decay_[r] = static_cast<float>(std::exp(-mu * std::pow(r * bin_width, 2)));
+  const float to_bin = model.reach / target_steps / static_cast<float>(bin_width);
+  parallel_for_ranges(execution, model.targets.rows(), 4096, [&](int64_t begin, int64_t end) {
+    for (int64_t s = begin; s < end; ++s)
+      for (Eigen::Index l = 0; l < model.targets.cols(); ++l)
+        if (const uint16_t target = model.targets(s, l); target != target_missing)
+          target_bin_[s * stride_ + l] = static_cast<uint16_t>(
+              std::min(static_cast<int32_t>(static_cast<float>(target) * to_bin), bins_ - 1));
+  });
+  const auto& trees = model.forests[0].trees;
+  leaf_.resize(descriptors.rows(), static_cast<Eigen::Index>(trees.size()));
+  parallel_for(execution, leaf_.cols(), [&](int64_t t) {  // one tree stays in cache for all samples
+    for (Eigen::Index s = 0; s < leaf_.rows(); ++s) leaf_(s, t) = trees[t].leaf_of(descriptors.row(s).data());
+  });
+}
+
+// How often the leaves' samples lie at each distance, all trees weighing the same.
+void LeafVotes::add_histogram(int32_t sample, float* histogram) const {
+  const auto& trees = model_.forests[0].trees;
+  const auto landmarks = static_cast<int32_t>(model_.targets.cols());
+  for (size_t t = 0; t < trees.size(); ++t) {
+    const int32_t leaf = leaf_(sample, static_cast<Eigen::Index>(t));
+    const int32_t begin = trees[t].leaf_start[leaf], end = trees[t].leaf_start[leaf + 1];
+    const float weight = 1.0f / static_cast<float>((end - begin) * static_cast<int64_t>(trees.size()));
+    for (int32_t i = begin; i < end; ++i) {
+      const uint16_t* bin = &target_bin_[static_cast<size_t>(trees[t].leaf_samples[i]) * stride_];
+      for (int32_t l = 0; l < landmarks; ++l) histogram[bin[l] * stride_ + l] += weight;
+    }
+  }
+}
+
+VoteTables LeafVotes::tables(int32_t first, int32_t count, const Execution& execution) const {
   VoteTables tables;
   tables.width = bin_width;
-  tables.rows = bins + 1;  // at the edges of the bins
-  tables.landmarks = static_cast<int32_t>(model.targets.cols());
-  tables.weight.assign(static_cast<size_t>(descriptors.rows()) * tables.rows * tables.stride(), 0);
-  const std::vector<float> kernel = gaussian_kernel();
-  const auto half = static_cast<int32_t>(kernel.size());
-  parallel_for(execution, descriptors.rows(), [&](int64_t s) {
-    const RowMatrixf histogram = leaf_histogram(model, descriptors.row(s).data(), bins);
-    Eigen::Map<RowMatrixf> table(tables.of(s), tables.rows, tables.stride());
-    for (int32_t b = 0; b < bins; ++b) {
-      if (histogram.row(b).isZero(0)) continue;
-      for (int32_t r = std::max(b + 1 - half, 0); r < std::min(b + half, tables.rows); ++r)
-        table.row(r).head(tables.landmarks) += kernel[r > b ? r - b - 1 : b - r] * histogram.row(b);
+  tables.rows = bins_ + 1;  // at the edges of the bins
+  tables.landmarks = static_cast<int32_t>(model_.targets.cols());
+  tables.weight.resize(static_cast<size_t>(count) * tables.rows * stride_);
+  parallel_for_ranges(execution, count, 8, [&](int64_t begin, int64_t end) {
+    std::vector<float> histogram(static_cast<size_t>(bins_ + 1 + 2 * half) * stride_);
+    float* bins = histogram.data() + half * stride_;
+    const Smoothing how{histogram.data(), decay_.data(), gaussian_kernel(), tables.rows, stride_};
+    for (int64_t s = begin; s < end; ++s) {
+      std::fill(histogram.begin(), histogram.end(), 0.0f);
+      add_histogram(first + static_cast<int32_t>(s), bins);
+      std::fill_n(bins + static_cast<int64_t>(bins_) * stride_, stride_, 0.0f);  // what is missing has no say
+      smooth(how, tables.of(s));
     }
-    for (int32_t r = 0; r < tables.rows; ++r)
-      table.row(r) *= static_cast<float>(std::exp(-mu * std::pow(r * bin_width, 2)));
   });
   return tables;
 }

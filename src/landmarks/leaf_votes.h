@@ -1,13 +1,31 @@
 // From the leaves that a sample reaches to its table of votes.
 #pragma once
+#include <cstdint>
+#include <vector>
+
 #include "landmarks/model_parts.h"
 #include "vote/vote.h"
 
 namespace focal {
 
-// For each of the descriptors' rows: the distribution of the distances to every landmark that its leaves remember,
-// smoothed, weighted by exp(-mu d^2). Distances in sqrt(area).
-VoteTables leaf_vote_tables(const LandmarkModel& model, const Eigen::Ref<const RowMatrixf>& descriptors,
-                            const Execution& execution);
+// For each sample the distribution of the distances to every landmark that its leaves remember, smoothed, weighted by
+// exp(-mu d^2). Distances in sqrt(area). What all samples share is kept, so tables can be made some samples at a time.
+class LeafVotes {
+ public:
+  // descriptors: one row a sample. The model must outlive it.
+  LeafVotes(const LandmarkModel& model, const Eigen::Ref<const RowMatrixf>& descriptors,
+            const Execution& execution);
+  // Of the samples [first, first + count).
+  VoteTables tables(int32_t first, int32_t count, const Execution& execution) const;
+
+ private:
+  void add_histogram(int32_t sample, float* histogram) const;
+
+  const LandmarkModel& model_;
+  int32_t bins_, stride_;
+  std::vector<uint16_t> target_bin_;  // training samples x stride_; bins_ where there is none
+  Eigen::Matrix<int32_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> leaf_;  // samples x trees
+  std::vector<float> decay_;  // exp(-mu d^2) at the rows of a table
+};
 
 }  // namespace focal

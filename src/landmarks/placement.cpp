@@ -23,13 +23,14 @@ RowMatrixf cast_votes(const LandmarkModel& model, const SurfaceAnalysis& analysi
   const auto L = static_cast<int32_t>(model.landmark_names.size());
   RowMatrixf votes = RowMatrixf::Zero(analysis.heat.vertex_count(), VoteTables::padded(L));
   Stopwatch watch;
+  const LeafVotes leaf_votes(model, analysis.descriptors.topRows(count), execution);
+  seconds.forest += watch.lap();
   for_each_portion(
       analysis, count, execution, [&](int32_t first, int32_t used, const SampleDistances& portion) {
         seconds.geodesics += watch.lap();
         for (int32_t from = 0; from < used; from += samples_at_once) {
           const int32_t some = std::min(samples_at_once, used - from);
-          const VoteTables tables =
-              leaf_vote_tables(model, analysis.descriptors.middleRows(first + from, some), execution);
+          const VoteTables tables = leaf_votes.tables(first + from, some, execution);
           seconds.forest += watch.lap();
           add_distribution_votes(tables, some, {portion.steps.data(), portion.step, portion.vertices}, from,
                                  votes, execution);

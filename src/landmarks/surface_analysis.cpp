@@ -56,7 +56,7 @@ SurfaceAnalysis analyse_surface(std::shared_ptr<const PreparedMesh> mesh, const 
   SurfaceAnalysis result;
   Stopwatch watch;
   result.params = params;
-  result.proxy = make_proxy(std::move(mesh), params.proxy_vertices);
+  result.proxy = make_proxy(std::move(mesh), params.proxy_vertices, execution);
   result.proxy_seconds = watch.lap();
   execution.check_cancelled();
   make_solvers(result, execution);
@@ -66,13 +66,14 @@ SurfaceAnalysis analyse_surface(std::shared_ptr<const PreparedMesh> mesh, const 
   eigen.count = params.eigenpair_count;
   eigen.method = EigenMethod::chebyshev;
   eigen.tolerance = 1e-5;  // far below what the signatures, and a forest's thresholds, can tell
-  const Eigenbasis basis = eigenbasis(result.operators.L, result.operators.mass, eigen, execution);
+  const Eigenbasis basis =
+      eigenbasis(result.operators.L, result.operators.mass, eigen, execution, result.heat.symbolic());
   result.eigenfunctions = basis.Phi.cast<float>();
   result.spectrum_seconds = watch.lap();
   Random random(params.seed, params.stream);
   const int32_t n = result.surface().vertex_count(), count = sample_count(n, params);
   result.samples = sample_without_replacement(random, n, count);
-  result.descriptors = si_hks(basis, result.operators.area, result.samples).cast<float>();
+  result.descriptors = si_hks(basis, result.operators.area, result.samples, execution).cast<float>();
   result.descriptor_seconds = watch.lap();
   return result;
 }

@@ -10,9 +10,8 @@
 namespace focal {
 
 // P A P^T = G G^T, A symmetric positive definite, ordered by approximate minimum degree.
-// The factor is kept by row and by column, so that both triangular solves gather: each entry of the factor is
-// read once for a block of `lanes` right-hand sides, which lie interleaved: X[i * lanes + j] is row i of side
-// j.
+// Each entry of the factor is read once for a block of `lanes` right-hand sides, which lie interleaved: X[i * lanes + j]
+// is row i of side j.
 class SparseCholesky {
  public:
   static constexpr int lanes = 32;
@@ -26,7 +25,9 @@ class SparseCholesky {
   SparseCholesky(const SparseMatrix& A, std::shared_ptr<const SymbolicFactor> symbolic);
 
   int32_t size() const { return symbolic_ ? symbolic_->size() : 0; }
-  int64_t nonzeros() const { return static_cast<int64_t>(rows_.index.size()) + size(); }
+  // Numbers stored: those of the factor, and a few zeros that make supernodes wider.
+  int64_t stored() const { return static_cast<int64_t>(values_.size()); }
+  std::shared_ptr<const SymbolicFactor> symbolic() const { return symbolic_; }
   // permutation()[old] = new: rows of the blocks below are in the new order.
   const std::vector<int32_t>& permutation() const { return symbolic_->permutation; }
 
@@ -38,19 +39,9 @@ class SparseCholesky {
   Vector solve(const Vector& b) const;
 
  private:
-  // The strict triangle of G in compressed rows: entries of row i are [start[i], start[i + 1]).
-  struct Rows {
-    std::vector<int64_t> start;
-    std::vector<int32_t> index;
-    std::vector<double> value;
-    std::vector<float> value_f;
-  };
-  void set_factor(const std::vector<double>& panels);
-
   std::shared_ptr<const SymbolicFactor> symbolic_;
-  Rows rows_, columns_;  // G and G^T
-  std::vector<double> inverse_diagonal_;
-  std::vector<float> inverse_diagonal_f_;
+  std::vector<double> values_, inverse_diagonal_;  // the panels of G
+  std::vector<float> values_f_, inverse_diagonal_f_;
 };
 
 }  // namespace focal

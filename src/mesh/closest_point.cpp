@@ -1,6 +1,7 @@
 #include "mesh/closest_point.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 namespace focal {
@@ -21,35 +22,81 @@ void consider(const TriangleMesh& mesh, int32_t t, const SurfaceQuery& query, Ne
   if (squared < nearest.squared) nearest = {{t, weights}, squared};
 }
 
-// One pass over the triangles for all queries: those whose box comes within the radius are looked at closely.
-void search(const TriangleMesh& mesh, std::span<const SurfaceQuery> queries, double radius,
-            std::vector<Nearest>& found) {
-  std::vector<size_t> open;
-  for (size_t q = 0; q < queries.size(); ++q)
-    if (found[q].point.triangle < 0) open.push_back(q);
-  for (int32_t t = 0; t < mesh.triangle_count(); ++t) {
-    const auto a = mesh.positions.row(mesh.triangles(t, 0)), b = mesh.positions.row(mesh.triangles(t, 1)),
-               c = mesh.positions.row(mesh.triangles(t, 2));
-    const Eigen::RowVector3d low = a.cwiseMin(b).cwiseMin(c).array() - radius,
-                             high = a.cwiseMax(b).cwiseMax(c).array() + radius;
-    for (const size_t q : open) {
-      const Vector3& p = queries[q].position;
-      if (p[0] < low[0] || p[0] > high[0] || p[1] < low[1] || p[1] > high[1] || p[2] < low[2] ||
-          p[2] > high[2])
-        continue;
-      consider(mesh, t, queries[q], found[q]);
+// The queries whose ball may reach a triangle, by slabs across the longest axis of them all.
+class QuerySlabs {
+ public:
+  QuerySlabs(std::span<const SurfaceQuery> queries, const std::vector<int32_t>& open, double radius) {
+    Eigen::AlignedBox3d box;
+    for (const int32_t q : open) box.extend(queries[q].position);
+    box.sizes().maxCoeff(&axis_);
+    low_ = box.min()[axis_] - radius;
+    to_slab_ = slabs / std::max(box.sizes()[axis_] + 2 * radius, std::numeric_limits<double>::min());
+    for (const int32_t q : open) {
+      const double at = queries[q].position[axis_];
+      for (int s = slab_of(at - radius); s <= slab_of(at + radius); ++s) of_[s].push_back(q);
     }
   }
+  // Calls visit(query) for those of every slab between two heights, which may name a query twice.
+  template <class Visit>
+  void for_each(const Eigen::RowVector3d& low, const Eigen::RowVector3d& high, const Visit& visit) const {
+    if ((high[axis_] - low_) * to_slab_ < 0 || (low[axis_] - low_) * to_slab_ > slabs) return;
+    for (int s = slab_of(low[axis_]); s <= slab_of(high[axis_]); ++s)
+      for (const int32_t q : of_[s]) visit(q);
+  }
+
+ private:
+  static constexpr int slabs = 256;
+  int slab_of(double at) const {
+    return static_cast<int>(std::clamp((at - low_) * to_slab_, 0.0, static_cast<double>(slabs - 1)));
+  }
+  Eigen::Index axis_ = 0;
+  double low_ = 0, to_slab_ = 0;
+  std::array<std::vector<int32_t>, slabs> of_;
+};
+
+// Those of the triangles [begin, end) whose box comes within the radius are looked at closely.
+void search(const TriangleMesh& mesh, std::span<const SurfaceQuery> queries, const QuerySlabs& slabs,
+            double radius, int64_t begin, int64_t end, std::vector<Nearest>& found) {
+  for (auto t = static_cast<int32_t>(begin); t < end; ++t) {
+    const auto a = mesh.positions.row(mesh.triangles(t, 0)), b = mesh.positions.row(mesh.triangles(t, 1)),
+               c = mesh.positions.row(mesh.triangles(t, 2));
+    const Eigen::RowVector3d low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
+    slabs.for_each(low, high, [&](int32_t q) {
+      const Eigen::RowVector3d p = queries[q].position;
+      if ((p.array() + radius >= low.array()).all() && (p.array() - radius <= high.array()).all())
+        consider(mesh, t, queries[q], found[q]);
+    });
+  }
+}
+
+// One pass over the triangles for all queries still open.
+void search_all(const TriangleMesh& mesh, std::span<const SurfaceQuery> queries, double radius,
+                std::vector<Nearest>& found, const Execution& execution) {
+  constexpr int64_t grain = 1 << 16;
+  std::vector<int32_t> open;
+  for (size_t q = 0; q < queries.size(); ++q)
+    if (found[q].point.triangle < 0) open.push_back(static_cast<int32_t>(q));
+  const QuerySlabs slabs(queries, open, radius);
+  std::vector<std::vector<Nearest>> parts((mesh.triangle_count() + grain - 1) / grain);
+  parallel_for_ranges(execution, mesh.triangle_count(), grain, [&](int64_t begin, int64_t end) {
+    auto& part = parts[begin / grain];
+    part.resize(queries.size());
+    search(mesh, queries, slabs, radius, begin, end, part);
+  });
+  for (const auto& part : parts)
+    for (const int32_t q : open)
+      if (part[q].squared < found[q].squared) found[q] = part[q];
 }
 
 }  // namespace
 
 std::vector<SurfacePoint> closest_points(const TriangleMesh& mesh, std::span<const SurfaceQuery> queries,
-                                         double radius) {
+                                         double radius, const Execution& execution) {
   std::vector<Nearest> found(queries.size());
   const auto missing = [](const Nearest& n) { return n.point.triangle < 0; };
+  const double everywhere = 1e6 * radius + 1e6;
   for (int round = 0; round < 4 && std::any_of(found.begin(), found.end(), missing); ++round, radius *= 4)
-    search(mesh, queries, round == 3 ? std::numeric_limits<double>::infinity() : radius, found);
+    search_all(mesh, queries, round == 3 ? everywhere : radius, found, execution);
   std::vector<SurfacePoint> result;
   for (size_t q = 0; q < queries.size(); ++q) {
     if (missing(found[q]))  // nothing faces that way: any triangle will do

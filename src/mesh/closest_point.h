@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "base/parallel.h"
 #include "mesh/triangle_mesh.h"
 
 namespace focal {
@@ -15,7 +16,7 @@ struct SurfaceQuery {
 
 // One a query. radius: where to look first, about twice the distance expected; widened until something is found.
 std::vector<SurfacePoint> closest_points(const TriangleMesh& mesh, std::span<const SurfaceQuery> queries,
-                                         double radius);
+                                         double radius, const Execution& execution = Execution().inner());
 
 // Barycentric weights of the point of the triangle abc nearest to p (Ericson, "Real-Time Collision Detection", 2005).
 Vector3 closest_on_triangle(const Vector3& p, const Vector3& a, const Vector3& b, const Vector3& c);

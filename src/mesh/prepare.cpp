@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "base/error.h"
 #include "mesh/components.h"
@@ -25,39 +27,56 @@ void validate(const TriangleMesh& mesh) {
                 "indices run from 0 to the number of vertices - 1");
 }
 
+uint64_t mixed(
+    uint64_t x) {  // the finaliser of MurmurHash3 (A. Appleby), which spreads close numbers over a table
+  x = (x ^ (x >> 33)) * 0xff51afd7ed558ccdULL;
+  x = (x ^ (x >> 33)) * 0xc4ceb9fe1a85ec53ULL;
+  return x ^ (x >> 33);
+}
+
 // Per vertex the smallest number with exactly its position.
 std::vector<int32_t> weld(const MatrixX3& positions) {
-  std::vector<int32_t> order(positions.rows()), first(positions.rows());
-  std::iota(order.begin(), order.end(), 0);
-  const auto key = [&](int32_t v) {  // + 0.0 makes -0 and 0 equal
-    return std::array{positions(v, 0) + 0.0, positions(v, 1) + 0.0, positions(v, 2) + 0.0};
+  const auto n = static_cast<int32_t>(positions.rows());
+  std::vector<int32_t> first(n), table(std::bit_ceil(2 * static_cast<size_t>(n) + 1), -1);
+  const auto slot_of = [&](int32_t v) {
+    uint64_t hash = 0;
+    for (int i = 0; i < 3; ++i)  // + 0.0 makes -0 and 0 equal
+      hash = mixed(hash ^ std::bit_cast<uint64_t>(positions(v, i) + 0.0));
+    return hash & (table.size() - 1);
   };
-  std::sort(order.begin(), order.end(), [&](int32_t a, int32_t b) {
-    const auto x = key(a), y = key(b);
-    return x != y ? x < y : a < b;
-  });
-  for (size_t i = 0; i < order.size(); ++i)
-    first[order[i]] = i && key(order[i]) == key(order[i - 1]) ? first[order[i - 1]] : order[i];
+  for (int32_t v = 0; v < n; ++v) {
+    size_t slot = slot_of(v);
+    while (table[slot] >= 0 && positions.row(table[slot]) != positions.row(v))
+      slot = (slot + 1) & (table.size() - 1);
+    if (table[slot] < 0) table[slot] = v;
+    first[v] = table[slot];
+  }
   return first;
 }
 
-// The source triangles that stay, after dropping repeated corners and repeats of the same corner set.
-std::vector<int32_t> kept_triangles(const MatrixX3i& corners, bool drop) {
+// The source triangles that stay, after dropping repeated corners and repeats of the same corner set. Those kept are
+// chained by their smallest corner, so that only a few are compared.
+std::vector<int32_t> kept_triangles(const MatrixX3i& corners, int32_t vertex_count, bool drop) {
   std::vector<int32_t> kept;
-  std::vector<std::array<int32_t, 4>> sorted;
-  for (int32_t t = 0; t < corners.rows(); ++t) {
+  kept.reserve(corners.rows());
+  const auto sorted = [&](int32_t t) {
     std::array<int32_t, 3> c{corners(t, 0), corners(t, 1), corners(t, 2)};
     std::sort(c.begin(), c.end());
-    if (!drop)
-      kept.push_back(t);
-    else if (c[0] != c[1] && c[1] != c[2])
-      sorted.push_back({c[0], c[1], c[2], t});
+    return c;
+  };
+  std::vector<int32_t> head(drop ? vertex_count : 0, -1), next;
+  next.reserve(drop ? corners.rows() : 0);
+  for (int32_t t = 0; t < corners.rows(); ++t) {
+    if (drop) {
+      const auto c = sorted(t);
+      if (c[0] == c[1] || c[1] == c[2]) continue;
+      int32_t other = head[c[0]];
+      while (other >= 0 && sorted(kept[other]) != c) other = next[other];
+      if (other >= 0) continue;
+      next.push_back(std::exchange(head[c[0]], static_cast<int32_t>(kept.size())));
+    }
+    kept.push_back(t);
   }
-  std::sort(sorted.begin(), sorted.end());
-  for (size_t i = 0; i < sorted.size(); ++i)
-    if (!i || !std::equal(sorted[i].begin(), sorted[i].begin() + 3, sorted[i - 1].begin()))
-      kept.push_back(sorted[i][3]);
-  std::sort(kept.begin(), kept.end());
   return kept;
 }
 
@@ -122,7 +141,7 @@ PreparedMesh prepare(TriangleMesh source, const PrepareParams& params) {
   std::iota(first.begin(), first.end(), 0);
   if (params.weld) first = weld(mesh.source.positions);
   MatrixX3i corners = mesh.source.triangles.unaryExpr([&](int32_t v) { return first[v]; });
-  mesh.source_triangle = kept_triangles(corners, params.drop_degenerate);
+  mesh.source_triangle = kept_triangles(corners, mesh.source.vertex_count(), params.drop_degenerate);
   build_surface(mesh, first, corners);
   if (mesh.surface.vertex_count() < smallest_surface)
     throw Error(Status::mesh_too_small,

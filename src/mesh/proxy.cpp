@@ -1,12 +1,9 @@
 #include "mesh/proxy.h"
 
-#include <meshoptimizer.h>
-
-#include <Eigen/Eigenvalues>
-#include <algorithm>
 #include <limits>
 
 #include "mesh/closest_point.h"
+#include "mesh/decimate.h"
 #include "mesh/nearest_vertex.h"
 
 namespace focal {
@@ -14,37 +11,6 @@ namespace {
 
 constexpr double worth_it = 1.1;     // a surface hardly larger than the proxy is analysed as it is
 constexpr double search_radius = 2;  // in mean edge lengths of the coarse surface
-
-// Turned to its principal axes: the decimation scales by the bounding box, so another pose of the same mesh in space
-// would lose other vertices.
-Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> upright_positions(const MatrixX3& positions) {
-  const MatrixX3 centred = positions.rowwise() - positions.colwise().mean();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(centred.transpose() * centred);
-  return (centred * axes.eigenvectors()).cast<float>();
-}
-
-// Triangles over some of the vertices, as many as asked for or a few more.
-TriangleMesh decimate(const TriangleMesh& mesh, int32_t vertices) {
-  const auto positions = upright_positions(mesh.positions);
-  const auto index_count = static_cast<size_t>(mesh.triangles.size());
-  std::vector<unsigned> indices(mesh.triangles.data(), mesh.triangles.data() + index_count),
-      kept(index_count);
-  const auto target =
-      static_cast<size_t>(static_cast<double>(mesh.triangle_count()) * vertices / mesh.vertex_count());
-  kept.resize(meshopt_simplify(kept.data(), indices.data(), index_count, positions.data(), positions.rows(),
-                               3 * sizeof(float), 3 * std::max<size_t>(target, 8),
-                               std::numeric_limits<float>::max(), 0, nullptr));
-  TriangleMesh result;
-  std::vector<int32_t> number(mesh.vertex_count(), -1), vertex;
-  result.triangles.resize(kept.size() / 3, 3);
-  for (size_t i = 0; i < kept.size(); ++i) {
-    int32_t& v = number[kept[i]];
-    if (v < 0) v = static_cast<int32_t>(vertex.size()), vertex.push_back(static_cast<int32_t>(kept[i]));
-    result.triangles.data()[i] = v;
-  }
-  result.positions = mesh.positions(vertex, Eigen::all);
-  return result;
-}
 
 Vector3 normal_of(const TriangleMesh& mesh, int32_t t) {
   const Vector3 a = mesh.positions.row(mesh.triangles(t, 0)), b = mesh.positions.row(mesh.triangles(t, 1)),
@@ -54,9 +20,9 @@ Vector3 normal_of(const TriangleMesh& mesh, int32_t t) {
 
 }  // namespace
 
-Proxy make_proxy(std::shared_ptr<const PreparedMesh> mesh, int32_t vertices) {
+Proxy make_proxy(std::shared_ptr<const PreparedMesh> mesh, int32_t vertices, const Execution& execution) {
   if (vertices == 0 || mesh->surface.vertex_count() <= worth_it * vertices) return {mesh, mesh};
-  return {mesh, std::make_shared<const PreparedMesh>(prepare(decimate(mesh->surface, vertices)))};
+  return {mesh, std::make_shared<const PreparedMesh>(prepare(decimate(mesh->surface, vertices, execution)))};
 }
 
 std::vector<SurfacePoint> to_coarse(const Proxy& proxy, std::span<const SurfacePoint> full_points) {
@@ -70,7 +36,8 @@ std::vector<SurfacePoint> to_coarse(const Proxy& proxy, std::span<const SurfaceP
                         search_radius * mean_edge_length(proxy.coarse->surface));
 }
 
-std::vector<SurfacePoint> to_full(const Proxy& proxy, std::span<const SurfacePoint> coarse_points) {
+std::vector<SurfacePoint> to_full(const Proxy& proxy, std::span<const SurfacePoint> coarse_points,
+                                  const Execution& execution) {
   std::vector<SurfacePoint> result(coarse_points.begin(), coarse_points.end());
   if (proxy.is_full()) return result;
   const TriangleMesh& coarse = proxy.coarse->surface;
@@ -79,7 +46,7 @@ std::vector<SurfacePoint> to_full(const Proxy& proxy, std::span<const SurfacePoi
     queries.push_back({proxy.coarse->centre + proxy.coarse->scale * position_of(coarse, point),
                        normal_of(coarse, point.triangle)});
   return closest_points(proxy.full->surface, queries,
-                        search_radius * mean_edge_length(coarse) * proxy.coarse->scale);
+                        search_radius * mean_edge_length(coarse) * proxy.coarse->scale, execution);
 }
 
 std::vector<SurfacePoint> coarse_place_of_vertices(const Proxy& proxy) {

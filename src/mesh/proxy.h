@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/parallel.h"
 #include "mesh/prepare.h"
 
 namespace focal {
@@ -19,12 +20,12 @@ struct Proxy {
 };
 
 // vertices: of the proxy, about; 0, or no fewer than the surface has: the surface itself.
-// Decimated by quadric error (M. Garland, P. Heckbert, "Surface Simplification Using Quadric Error Metrics", 1997).
-Proxy make_proxy(std::shared_ptr<const PreparedMesh> mesh, int32_t vertices);
+Proxy make_proxy(std::shared_ptr<const PreparedMesh> mesh, int32_t vertices, const Execution& execution = {});
 
 // Nearest points on the other surface, on the side that faces the same way. On full->surface and coarse->surface.
 std::vector<SurfacePoint> to_coarse(const Proxy& proxy, std::span<const SurfacePoint> full_points);
-std::vector<SurfacePoint> to_full(const Proxy& proxy, std::span<const SurfacePoint> coarse_points);
+std::vector<SurfacePoint> to_full(const Proxy& proxy, std::span<const SurfacePoint> coarse_points,
+                                  const Execution& execution = {});
 
 // For every vertex of the full surface its place on the coarse one: carries vote maps over.
 std::vector<SurfacePoint> coarse_place_of_vertices(const Proxy& proxy);

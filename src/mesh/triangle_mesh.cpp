@@ -1,6 +1,7 @@
 #include "mesh/triangle_mesh.h"
 
 #include <algorithm>
+#include <numeric>
 #include <vector>
 
 namespace focal {
@@ -18,15 +19,31 @@ double surface_area(const TriangleMesh& mesh) {
 }
 
 Eigen::Matrix<int32_t, Eigen::Dynamic, 2, Eigen::RowMajor> edges_of(const TriangleMesh& mesh) {
-  std::vector<std::pair<int32_t, int32_t>> edges;
-  edges.reserve(3 * static_cast<size_t>(mesh.triangle_count()));
-  for (int32_t t = 0; t < mesh.triangle_count(); ++t)
-    for (int i = 0; i < 3; ++i)
-      edges.push_back(std::minmax({mesh.triangles(t, i), mesh.triangles(t, (i + 1) % 3)}));
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  Eigen::Matrix<int32_t, Eigen::Dynamic, 2, Eigen::RowMajor> result(edges.size(), 2);
-  for (size_t e = 0; e < edges.size(); ++e) result.row(e) << edges[e].first, edges[e].second;
+  // By the smaller end by counting, then the few at each vertex by the larger end.
+  const int32_t n = mesh.vertex_count();
+  const auto for_each_side = [&](const auto& visit) {
+    for (int32_t t = 0; t < mesh.triangle_count(); ++t)
+      for (int i = 0; i < 3; ++i) {
+        const auto [a, b] = std::minmax(mesh.triangles(t, i), mesh.triangles(t, (i + 1) % 3));
+        visit(a, b);
+      }
+  };
+  std::vector<int32_t> start(n + 1, 0), other(static_cast<size_t>(mesh.triangles.size()));
+  for_each_side([&](int32_t a, int32_t) { ++start[a + 1]; });
+  std::partial_sum(start.begin(), start.end(), start.begin());
+  std::vector<int32_t> end(start.begin(), start.end() - 1);
+  for_each_side([&](int32_t a, int32_t b) { other[end[a]++] = b; });
+  Eigen::Index count = 0;
+  for (int32_t v = 0; v < n; ++v) {
+    std::sort(other.begin() + start[v], other.begin() + end[v]);
+    end[v] =
+        static_cast<int32_t>(std::unique(other.begin() + start[v], other.begin() + end[v]) - other.begin());
+    count += end[v] - start[v];
+  }
+  Eigen::Matrix<int32_t, Eigen::Dynamic, 2, Eigen::RowMajor> result(count, 2);
+  Eigen::Index e = 0;
+  for (int32_t v = 0; v < n; ++v)
+    for (int32_t p = start[v]; p < end[v]; ++p) result.row(e++) << v, other[p];
   return result;
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 #include <vector>
 
 namespace focal {
@@ -14,26 +16,29 @@ struct Sides {
   std::vector<int32_t> twin;  // the same edge seen from the other triangle, or -1
 
   explicit Sides(const MatrixX3i& triangles) : twin(static_cast<size_t>(triangles.size()), -1) {
-    struct Edge {
-      int32_t low, high, side;
+    // Sides by their smaller end, by counting, then the few at each vertex by the larger end.
+    struct Side {
+      int32_t high, side;
+      bool operator<(const Side& other) const {
+        return high != other.high ? high < other.high : side < other.side;
+      }
     };
-    std::vector<Edge> edges;
-    for (int32_t s = 0; s < static_cast<int32_t>(twin.size()); ++s) {
-      const auto [low, high] =
-          std::minmax(triangles(s / 3, (s % 3 + 1) % 3), triangles(s / 3, (s % 3 + 2) % 3));
-      edges.push_back({low, high, s});
-    }
-    std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
-      return a.low != b.low ? a.low < b.low : a.high != b.high ? a.high < b.high : a.side < b.side;
-    });
-    const auto same = [&](size_t a, size_t b) {
-      return b < edges.size() && edges[a].low == edges[b].low && edges[a].high == edges[b].high;
+    const auto ends = [&](int32_t s) {
+      return std::minmax(triangles(s / 3, (s % 3 + 1) % 3), triangles(s / 3, (s % 3 + 2) % 3));
     };
-    for (size_t e = 0; e < edges.size();) {
-      size_t end = e + 1;
-      while (same(e, end)) ++end;
-      if (end - e == 2) glue(edges[e].side, edges[e + 1].side, triangles);
-      e = end;
+    const auto count = static_cast<int32_t>(twin.size());
+    std::vector<int32_t> start(count ? triangles.maxCoeff() + 2 : 1, 0);
+    for (int32_t s = 0; s < count; ++s) ++start[ends(s).first + 1];
+    std::partial_sum(start.begin(), start.end(), start.begin());
+    std::vector<int32_t> next(start.begin(), start.end() - 1);
+    std::vector<Side> sides(count);
+    for (int32_t s = 0; s < count; ++s) sides[next[ends(s).first]++] = {ends(s).second, s};
+    for (size_t v = 0; v + 1 < start.size(); ++v) {
+      std::sort(sides.begin() + start[v], sides.begin() + start[v + 1]);
+      for (int32_t e = start[v], end; e < start[v + 1]; e = end) {
+        for (end = e + 1; end < start[v + 1] && sides[end].high == sides[e].high;) ++end;
+        if (end - e == 2) glue(sides[e].side, sides[e + 1].side, triangles);
+      }
     }
   }
 

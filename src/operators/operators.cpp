@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 #include "operators/intrinsic_delaunay.h"
 
@@ -32,6 +34,45 @@ TriangleMeasure measure_corners(const TriangleMesh& mesh, int32_t t, double smal
   return result;
 }
 
+struct WeightedEdge {
+  int32_t a, b;
+  double weight;
+};
+
+// Column by column: weights of equal edges are added in their order, the diagonal is what makes the sum 0.
+SparseMatrix laplacian_of(const std::vector<WeightedEdge>& edges, int32_t n) {
+  std::vector<int32_t> start(n + 1, 0);
+  for (const auto& edge : edges) ++start[edge.a + 1], ++start[edge.b + 1];
+  std::partial_sum(start.begin(), start.end(), start.begin());
+  std::vector<std::pair<int32_t, double>> beside(start[n]);
+  std::vector<int32_t> next(start.begin(), start.end() - 1);
+  for (const auto& edge : edges) {
+    beside[next[edge.a]++] = {edge.b, edge.weight};
+    beside[next[edge.b]++] = {edge.a, edge.weight};
+  }
+  SparseMatrix L(n, n);
+  L.reserve(start[n] / 2 + n);
+  for (int32_t v = 0; v < n; ++v) {
+    const auto begin = beside.begin() + start[v], end = beside.begin() + start[v + 1];
+    std::stable_sort(begin, end, [](const auto& a, const auto& b) { return a.first < b.first; });
+    double sum = 0;
+    for (auto it = begin; it != end; ++it) sum += it->first == v ? 0 : it->second;
+    bool placed = false;  // the diagonal
+    L.startVec(v);
+    for (auto it = begin; it != end;) {
+      const int32_t other = it->first;
+      double weight = 0;
+      for (; it != end && it->first == other; ++it) weight += it->second;
+      if (other == v) continue;  // an edge from a vertex to itself cancels
+      if (other > v && !std::exchange(placed, true)) L.insertBack(v, v) = sum;
+      L.insertBack(other, v) = -weight;
+    }
+    if (!placed) L.insertBack(v, v) = sum;
+  }
+  L.finalize();
+  return L;
+}
+
 }  // namespace
 
 Operators make_operators(const TriangleMesh& mesh, std::span<const std::pair<int32_t, int32_t>> bridges,
@@ -43,12 +84,8 @@ Operators make_operators(const TriangleMesh& mesh, std::span<const std::pair<int
   result.area = surface_area(mesh);
   result.mean_edge = mean_edge_length(mesh);
   result.mass = Vector::Zero(n);
-  std::vector<Eigen::Triplet<double, int32_t>> entries;
-  entries.reserve(12 * static_cast<size_t>(m) + 4 * bridges.size());
-  const auto add_edge = [&](int32_t a, int32_t b, double weight) {
-    entries.emplace_back(a, b, -weight), entries.emplace_back(b, a, -weight);
-    entries.emplace_back(a, a, weight), entries.emplace_back(b, b, weight);
-  };
+  std::vector<WeightedEdge> edges;
+  edges.reserve(3 * static_cast<size_t>(m) + bridges.size());
   const IntrinsicTriangulation surface = delaunay ? intrinsic_delaunay(mesh) : intrinsic_copy(mesh);
   result.triangles = surface.triangles;
   for (int32_t t = 0; t < m; ++t) {
@@ -58,15 +95,14 @@ Operators make_operators(const TriangleMesh& mesh, std::span<const std::pair<int
     result.face_area[t] = triangle.area;
     result.half_cotangent.row(t) = triangle.half_cotangent;
     for (int i = 0; i < 3; ++i) {
-      add_edge(surface.triangles(t, (i + 1) % 3), surface.triangles(t, (i + 2) % 3),
-               triangle.half_cotangent[i]);
+      edges.push_back(
+          {surface.triangles(t, (i + 1) % 3), surface.triangles(t, (i + 2) % 3), triangle.half_cotangent[i]});
       result.mass[surface.triangles(t, i)] += triangle.area / 3;
     }
   }
-  for (const auto& [a, b] : bridges) add_edge(a, b, 1);
+  for (const auto& [a, b] : bridges) edges.push_back({a, b, 1});
   result.mass = result.mass.cwiseMax(1e-9 * result.area / n);  // a vertex of slivers only still has some mass
-  result.L.resize(n, n);
-  result.L.setFromTriplets(entries.begin(), entries.end());
+  result.L = laplacian_of(edges, n);
   return result;
 }
 

@@ -117,7 +117,7 @@ Eigenbasis chebyshev_eigenpairs(const StandardProblem& problem, const Execution&
   const double columns_per_wanted = static_cast<double>(blocks * lanes) / count;
   double last =
       10 * problem.scale * columns_per_wanted;  // the last column's eigenvalue, as well as it is known
-  ShiftedFactor factor(problem.A, shift_over_last * last);
+  ShiftedFactor factor(problem.A, shift_over_last * last, problem.symbolic);
   const Columns X = random_columns(n, blocks, execution);
   const Convergence convergence(problem.A, problem.tolerance);
   Vector lambda, residuals;

@@ -87,8 +87,11 @@ void correct(const Filter& filter, int degree, const ShiftedFactor& factor, cons
 
 }  // namespace
 
-ShiftedFactor::ShiftedFactor(const SparseMatrix& original, double shift_)
-    : shift(shift_), cholesky(shifted(original, shift)) {
+ShiftedFactor::ShiftedFactor(const SparseMatrix& original, double shift_,
+                             std::shared_ptr<const SymbolicFactor> symbolic)
+    : shift(shift_),
+      cholesky(symbolic ? SparseCholesky(shifted(original, shift), std::move(symbolic))
+                        : SparseCholesky(shifted(original, shift))) {
   Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int32_t> order(cholesky.size());
   std::copy(cholesky.permutation().begin(), cholesky.permutation().end(), order.indices().data());
   A = original.twistedBy(order);

@@ -11,7 +11,8 @@ struct ShiftedFactor {
   SparseCholesky cholesky;
   SparseMatrix A;
 
-  ShiftedFactor(const SparseMatrix& original, double shift);
+  // symbolic: the analysis of the matrix where it is known, or null.
+  ShiftedFactor(const SparseMatrix& original, double shift, std::shared_ptr<const SymbolicFactor> symbolic);
   // The same matrix with another shift.
   ShiftedFactor with_shift(const SparseMatrix& original, double shift) const;
 };

@@ -34,14 +34,15 @@ Eigenbasis dense_eigenpairs(const StandardProblem& problem) {
 }
 
 Eigenbasis eigenbasis(const SparseMatrix& L, const Vector& mass, const EigenParams& params,
-                      const Execution& execution) {
+                      const Execution& execution, std::shared_ptr<const SymbolicFactor> symbolic) {
   const auto n = static_cast<int32_t>(L.rows());
   if (n < 3) throw Error(Status::mesh_too_small, "a spectrum needs at least 3 vertices", "use a larger mesh");
   execution.check_cancelled();
   const int32_t count = std::clamp(params.count, 1, n - 2);
   const Vector inverse_root_mass = mass.cwiseSqrt().cwiseInverse();
   const StandardProblem problem{inverse_root_mass.asDiagonal() * L * inverse_root_mass.asDiagonal(),
-                                eigenvalue_scale(mass.sum(), count), count, params.tolerance};
+                                eigenvalue_scale(mass.sum(), count), count, params.tolerance,
+                                std::move(symbolic)};
   Eigenbasis basis = n < std::max(3 * count, 256)              ? dense_eigenpairs(problem)
                      : params.method == EigenMethod::chebyshev ? chebyshev_eigenpairs(problem, execution)
                                                                : lanczos_eigenpairs(problem, execution);

@@ -1,7 +1,10 @@
 // The k smallest eigenpairs of L phi = lambda M phi.
 #pragma once
+#include <memory>
+
 #include "base/matrix.h"
 #include "base/parallel.h"
+#include "linear/symbolic_factor.h"
 
 namespace focal {
 
@@ -23,7 +26,8 @@ struct EigenParams {
 // L: n x n symmetric positive semi-definite; mass: n, > 0 (the diagonal of M). The same bits for any thread
 // count. Each eigenvector's entry of largest magnitude is positive. Throws mesh_too_small (n < 3),
 // not_converged, cancelled. Cost of 200 pairs at 12,500 vertices: chebyshev 0.7 s of one core, spectra 4 s.
+// symbolic: the analysis of L's pattern where it is known, or null.
 Eigenbasis eigenbasis(const SparseMatrix& L, const Vector& mass, const EigenParams& params,
-                      const Execution& execution);
+                      const Execution& execution, std::shared_ptr<const SymbolicFactor> symbolic = nullptr);
 
 }  // namespace focal

@@ -11,7 +11,8 @@ struct StandardProblem {
   SparseMatrix A;
   double scale;
   int32_t count;
-  double tolerance;  // relative residual
+  double tolerance;                                          // relative residual
+  std::shared_ptr<const SymbolicFactor> symbolic = nullptr;  // of A where it is known
 };
 
 // All of them at once, for matrices little larger than the count.

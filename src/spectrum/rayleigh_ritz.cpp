@@ -4,20 +4,20 @@
 #include "spectrum/rayleigh_ritz.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <limits>
 #include <type_traits>
 #include <vector>
 
 #include "linear/block_kernels.h"
+#include "linear/symmetric_eigen.h"
 
 namespace focal {
 namespace {
 
 constexpr int lanes = Columns::lanes;
 constexpr int64_t tile_size = lanes * lanes;
-constexpr int64_t chunk_rows = 64, range_count = 16;
+constexpr int64_t chunk_rows = 64, range_count = 8;
 
 // Calls visit(range, begin, end) for chunks of rows, the ranges in parallel.
 template <class Visit>
@@ -49,20 +49,24 @@ void for_each_product(const SparseMatrix& A, const Columns& X, int first, const 
 template <class T>
 class TiledSum {
  public:
-  explicit TiledSum(int blocks) : blocks_(blocks), data_(range_count * blocks * blocks * tile_size) {
-    std::fill_n(data_.data(), data_.size(), T{0});
+  TiledSum(int blocks, const Execution& execution)
+      : blocks_(blocks), data_(range_count * blocks * blocks * tile_size) {
+    parallel_for(execution, range_count,
+                 [&](int64_t range) { std::fill_n(tile(range, 0, 0), blocks * blocks * tile_size, T{0}); });
   }
   T* tile(int64_t range, int a, int b) const {
     return data_.data() + ((range * blocks_ + a) * blocks_ + b) * tile_size;
   }
-  Matrix total() const {
+  Matrix total(const Execution& execution) const {
     using Tile = Eigen::Matrix<T, lanes, lanes, Eigen::RowMajor>;
     Matrix sum = Matrix::Zero(blocks_ * lanes, blocks_ * lanes);
-    for (int a = 0; a < blocks_; ++a)
+    parallel_for(execution, blocks_, [&](int64_t row) {
+      const auto a = static_cast<int>(row);
       for (int b = a; b < blocks_; ++b)
         for (int64_t range = 0; range < range_count; ++range)
           sum.block<lanes, lanes>(a * lanes, b * lanes) +=
               Eigen::Map<const Tile>(tile(range, a, b)).template cast<double>();
+    });
     return sum.selfadjointView<Eigen::Upper>();
   }
 
@@ -94,13 +98,13 @@ struct Rows {  // of all columns, copied to lie close together
 // X^T X, the leading blocks up to `first` known to be orthonormal.
 template <class T>
 Matrix gram_matrix(const Columns& X, int first, const Execution& execution) {
-  const TiledSum<T> sum(X.blocks);
+  const TiledSum<T> sum(X.blocks, execution);
   for_each_chunk(X, execution, [&](int64_t range, int64_t begin, int64_t end) {
     Rows<T> x(X);
     for (int b = 0; b < X.blocks; ++b) x.take(X.block(b) + begin * lanes, b, end - begin);
     add_products(sum, range, first, X.blocks, end - begin, x.data.data(), x.data.data());
   });
-  Matrix gram = sum.total();
+  Matrix gram = sum.total(execution);
   gram.topLeftCorner(first * lanes, first * lanes).setIdentity();
   return gram;
 }
@@ -109,7 +113,7 @@ Matrix gram_matrix(const Columns& X, int first, const Execution& execution) {
 template <class T>
 Matrix projection(const SparseMatrix& A, const Columns& X, const Vector& locked, const Execution& execution) {
   const int first = static_cast<int>(locked.size()) / lanes;
-  const TiledSum<T> sum(X.blocks);
+  const TiledSum<T> sum(X.blocks, execution);
   for_each_product(A, X, first, execution, [&](int64_t range, int64_t begin, int64_t end, const double* Y) {
     Rows<T> x(X), y(X);
     for (int b = 0; b < X.blocks; ++b) {
@@ -118,7 +122,7 @@ Matrix projection(const SparseMatrix& A, const Columns& X, const Vector& locked,
     }
     add_products(sum, range, first, X.blocks, end - begin, x.data.data(), y.data.data());
   });
-  Matrix projected = sum.total();
+  Matrix projected = sum.total(execution);
   projected.topLeftCorner(locked.size(), locked.size()) = locked.asDiagonal();
   return projected;
 }
@@ -159,50 +163,56 @@ struct Orthonormaliser {
   bool complete;
 };
 
-Orthonormaliser orthonormaliser(const Matrix& gram, bool of_floats) {
+Orthonormaliser orthonormaliser(const Matrix& gram, bool of_floats, const Execution& execution) {
   const Vector unit = gram.diagonal().cwiseMax(std::numeric_limits<double>::min()).cwiseSqrt().cwiseInverse();
   const Matrix G = unit.asDiagonal() * gram * unit.asDiagonal();
   const Eigen::LLT<Matrix> llt(G);
   if (llt.info() == Eigen::Success && llt.matrixLLT().diagonal().minCoeff() > (of_floats ? 1e-3 : 1e-7))
     return {unit.asDiagonal() * Matrix(llt.matrixU().solve(Matrix::Identity(G.rows(), G.cols()))), true};
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(G);
-  const double shortest = (of_floats ? 1e-6 : 1e-12) * eigen.eigenvalues().maxCoeff();
-  const Vector length = eigen.eigenvalues().cwiseMax(shortest).cwiseSqrt();
-  return {unit.asDiagonal() * eigen.eigenvectors() * length.cwiseInverse().asDiagonal(), false};
+  const SymmetricEigen eigen = symmetric_eigen(G, execution);
+  const double shortest = (of_floats ? 1e-6 : 1e-12) * eigen.values.maxCoeff();
+  const Vector length = eigen.values.cwiseMax(shortest).cwiseSqrt();
+  return {unit.asDiagonal() * eigen.vectors * length.cwiseInverse().asDiagonal(), false};
 }
 
 // Returns the C that makes X C orthonormal. Directions that rounding has left short get their full length first.
 template <class T>
 Matrix prepare_orthonormal(const Columns& X, const Execution& execution) {
   for (int attempt = 0;; ++attempt) {
-    const auto [C, complete] = orthonormaliser(gram_matrix<T>(X, 0, execution), std::is_same_v<T, float>);
+    const auto [C, complete] =
+        orthonormaliser(gram_matrix<T>(X, 0, execution), std::is_same_v<T, float>, execution);
     if (complete || attempt == 3) return C;
     rotate<T>(X, C, 0, execution);
   }
+}
+
+SymmetricEigen eigen_within(const Matrix& projected, const Matrix& C, const Execution& execution) {
+  return symmetric_eigen(dense_product(C.transpose(), dense_product(projected, C, execution), execution),
+                         execution);
 }
 
 template <class T>
 Vector solve_all(const SparseMatrix& A, const Columns& X, const Execution& execution) {
   const Matrix C = prepare_orthonormal<T>(X, execution);
   const Matrix projected = projection<T>(A, X, {}, execution);
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(C.transpose() * projected * C);
-  rotate<T>(X, C * eigen.eigenvectors(), 0, execution);
-  return eigen.eigenvalues();
+  const SymmetricEigen eigen = eigen_within(projected, C, execution);
+  rotate<T>(X, dense_product(C, eigen.vectors, execution), 0, execution);
+  return eigen.values;
 }
 
 // The columns after the locked ones are made orthogonal to these, and the problem is solved among them.
 Vector solve_rest(const SparseMatrix& A, const Columns& X, const Vector& locked, const Execution& execution) {
   const int first = static_cast<int>(locked.size()) / lanes;
-  const auto [C, complete] = orthonormaliser(gram_matrix<double>(X, first, execution), false);
+  const auto [C, complete] = orthonormaliser(gram_matrix<double>(X, first, execution), false, execution);
   if (!complete) return solve_all<double>(A, X, execution);
   Matrix rest = C.rightCols(X.count() - locked.size());
   const Matrix projected = projection<double>(A, X, locked, execution);
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(rest.transpose() * projected * rest);
+  const SymmetricEigen eigen = eigen_within(projected, rest, execution);
   Matrix all = Matrix::Zero(X.count(), X.count());
-  all.rightCols(rest.cols()) = rest * eigen.eigenvectors();
+  all.rightCols(rest.cols()) = dense_product(rest, eigen.vectors, execution);
   rotate<double>(X, all, first, execution);
   Vector lambda(X.count());
-  lambda << locked, eigen.eigenvalues();
+  lambda << locked, eigen.values;
   if (lambda(locked.size()) < locked(locked.size() - 1)) return solve_all<double>(A, X, execution);
   return lambda;
 }

@@ -46,6 +46,11 @@ RowMatrixf cast_votes(const Values& values, const Execution& execution) {
   return votes;
 }
 
+VoteTables leaf_tables(const Values& values, const Execution& execution) {
+  return LeafVotes(*values.model, values.descriptors, execution)
+      .tables(0, static_cast<int32_t>(values.descriptors.rows()), execution);
+}
+
 DistanceFields fields_of(const Values& values, const Execution& execution) {
   return [&](std::span<const int32_t> vertices) { return values.heat.distances(vertices, execution); };
 }
@@ -73,7 +78,7 @@ Values::Values(Subject of, std::shared_ptr<const LandmarkModel> known)
   basis = focal_eigenpairs(operators, model->params.eigenpair_count, {});
   samples = drawn_samples(mesh->surface.vertex_count());
   descriptors = si_hks(basis, operators.area, samples).cast<float>();
-  tables = leaf_vote_tables(*model, descriptors, {});
+  tables = leaf_tables(*this, {});
   blocks = distance_blocks(heat, samples);
   votes = cast_votes(*this, {});
   peaks = find(*this, {});
@@ -89,10 +94,10 @@ std::vector<Stage> focal_stages() {
       {"solve_32_double", [](V v, E) { solve_one_block<double>(v.factor); }, false},
       {"solve_32_float", [](V v, E) { solve_one_block<float>(v.factor); }, false},
       {"eigenpairs", [](V v, E e) { focal_eigenpairs(v.operators, v.model->params.eigenpair_count, e); }},
-      {"si_hks", [](V v, E) { si_hks(v.basis, v.operators.area, v.samples); }, false},
+      {"si_hks", [](V v, E e) { si_hks(v.basis, v.operators.area, v.samples, e); }},
       {"heat_factors", [](V v, E) { HeatMethod(v.mesh->surface, v.operators); }, false},
       {"heat_distances", [](V v, E e) { focal_distances(v.heat, v.samples, e); }},
-      {"leaf_tables", [](V v, E e) { leaf_vote_tables(*v.model, v.descriptors, e); }},
+      {"leaf_tables", [](V v, E e) { leaf_tables(v, e); }},
       {"votes", [](V v, E e) { cast_votes(v, e); }},
       {"peaks", [](V v, E e) { find(v, e); }},
       {"constellation",

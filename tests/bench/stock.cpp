@@ -169,7 +169,8 @@ StockDetection stock_detect(const LandmarkModel& model, TriangleMesh source, int
   const StockHeat heat(mesh.surface, operators);
   const RowMatrix distances = heat.distances(samples, threads);
   result.distances = watch.lap();
-  const VoteTables tables = leaf_vote_tables(model, descriptors, threads_of(threads));
+  const VoteTables tables = LeafVotes(model, descriptors, threads_of(threads))
+                                .tables(0, static_cast<int32_t>(samples.size()), threads_of(threads));
   const RowMatrixf votes = stock_votes(tables, distances, threads);
   result.votes = watch.lap();
   const DistanceFields fields = [&](std::span<const int32_t> from) -> RowMatrixf {

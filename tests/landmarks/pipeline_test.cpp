@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "base/error.h"
+#include "base/multiversion.h"
 #include "creatures/character.h"
 #include "landmarks/detect.h"
 #include "landmarks/model_file.h"
@@ -131,6 +132,23 @@ TEST_CASE("the same bits for one, two and four threads, and from run to run") {
   CHECK(same(reference, detect(one, mesh, {}, threads(2))));
   CHECK(same(reference, detect(one, mesh, {}, threads(4))));
   CHECK(same(reference, detect(small_model(), mesh, {}, threads(1))));
+}
+
+TEST_CASE("every instruction set of this processor finds the same places") {
+  const auto mesh = std::make_shared<PreparedMesh>(prepare(posed_mesh(humanoid(204))));
+  const double edge = mean_edge_length(mesh->source);
+  limit_instruction_set(InstructionSet::baseline);
+  const Detection reference = detect(small_model(), mesh, {}, threads(2));
+  for (const auto set : {InstructionSet::avx2, InstructionSet::avx512}) {
+    limit_instruction_set(set);
+    if (instruction_set() != set) continue;  // not on this machine
+    const Detection other = detect(small_model(), mesh, {}, threads(2));
+    for (size_t l = 0; l < reference.landmarks.size(); ++l) {
+      CHECK((reference.landmarks[l].position - other.landmarks[l].position).norm() < 0.01 * edge);
+      CHECK(reference.landmarks[l].status == other.landmarks[l].status);
+    }
+  }
+  limit_instruction_set(InstructionSet::avx512);
 }
 
 TEST_CASE("a model from its file detects like the one that was saved") {
