@@ -83,11 +83,26 @@ void read_samples(ByteReader in, SurfaceAnalysis& analysis) {
   in.expect_end();
 }
 
+std::vector<std::byte> eigenfunctions_section(const RowMatrixf& Phi) {
+  ByteWriter out;
+  out.u32(static_cast<uint32_t>(Phi.cols()));
+  out.f32s({Phi.data(), static_cast<size_t>(Phi.size())});
+  return out.take();
+}
+
+RowMatrixf read_eigenfunctions(ByteReader in, int32_t vertices) {
+  const int32_t count = in.count("eigenfunction count", 32 * static_cast<uint64_t>(vertices), 1, vertices);
+  const auto values = in.f32s("eigenfunction", static_cast<size_t>(vertices) * count, -1e9F, 1e9F);
+  in.expect_end();
+  return Eigen::Map<const RowMatrixf>(values.data(), vertices, count);
+}
+
 }  // namespace
 
 std::vector<std::byte> serialise(const SurfaceAnalysis& analysis) {
   const ArchiveSection sections[] = {{"INFO", info_section(analysis)},
                                      {"PRXY", proxy_section(analysis.proxy)},
+                                     {"EIGN", eigenfunctions_section(analysis.eigenfunctions)},
                                      {"SMPL", samples_section(analysis)}};
   return write_archive(kind, sections);
 }
@@ -105,6 +120,7 @@ SurfaceAnalysis parse_analysis(std::span<const std::byte> file, std::shared_ptr<
   info.expect_end();
   analysis.proxy = read_proxy(archive.section("PRXY"), std::move(mesh));
   make_solvers(analysis, execution);
+  analysis.eigenfunctions = read_eigenfunctions(archive.section("EIGN"), analysis.surface().vertex_count());
   read_samples(archive.section("SMPL"), analysis);
   return analysis;
 }

@@ -51,6 +51,19 @@ inline focal::LandmarkModel small_model(focal::Preset preset) {
     constellation.handedness_mean.push_back(static_cast<float>(i - 13) / 16);
     constellation.handedness_sd.push_back(0.25F);
   }
+  for (int32_t shape = 0; shape < 2; ++shape) {
+    focal::AtlasShape atlas;
+    atlas.step = 0.0625F;
+    atlas.samples.Phi.resize(5 + L, 4);
+    for (int32_t i = 0; i < atlas.samples.Phi.size(); ++i)
+      atlas.samples.Phi.data()[i] = static_cast<float>((i * 7 + shape) % 19 - 9) * atlas.step;
+    atlas.samples.weight = Eigen::VectorXf::Constant(5 + L, 0.2F);
+    atlas.samples.weight.tail(L).setZero();
+    atlas.distances.resize(5, L);
+    for (int32_t i = 0; i < 5 * L; ++i) atlas.distances.data()[i] = static_cast<uint16_t>(i * 4000 + shape);
+    atlas.marked = {1, 1, static_cast<char>(shape)};
+    model.atlas.push_back(std::move(atlas));
+  }
   model.calibration.typical_vote = {0.5F, 0, 0.25F};
   for (int32_t i = 0; i <= focal::Calibration::feature_count; ++i)
     model.calibration.weight[i] = static_cast<float>(i) - 1.5F;
