@@ -457,6 +457,19 @@ FOCAL_API const char* focal_detection_warning(const focal_detection* detection, 
 FOCAL_API focal_status focal_detection_votes(const focal_detection* detection, uint32_t index,
                                              uint64_t vertex_count, float* out_votes);
 
+/* Geodesic distances along the surface from one landmark's place, absent or not, to each of the caller's vertices, in the
+ * mesh's units: INFINITY where no triangle uses the vertex or no way leads there. The first call takes about 50 ms, each
+ * further one 10 ms. vertex_count must be the mesh's. INVALID_LANDMARK when the landmark has no place at all. */
+FOCAL_API focal_status focal_detection_distances(const focal_detection* detection, uint32_t index,
+                                                 uint64_t vertex_count, float* out_distances);
+
+/* The region within `radius` of one landmark, as a value for each of the caller's vertices: 1 inside, 0 outside, in between
+ * within half a mean edge of its border. radius is a share of sqrt(focal_mesh_info.surface_area), so one number means the
+ * same region on every mesh of a category, whatever its size: a radius r in the units of a mesh is r / sqrt(surface_area).
+ * Errors as above; INVALID_ARGUMENT for a radius below 0. */
+FOCAL_API focal_status focal_detection_region(const focal_detection* detection, uint32_t index, double radius,
+                                              uint64_t vertex_count, float* out_membership);
+
 /* Writes the caller's own glTF, nothing lost, plus a node for each landmark that is not absent and
  * mesh.extras.focal. It is the kind of file that was loaded: a path that ends in the other kind's suffix is
  * INVALID_ARGUMENT; files beside a .gltf are referred to as before. A mesh from arrays, or whose file was not
