@@ -66,9 +66,10 @@ void add_amputations(const Shapes& shapes, std::vector<Case>& cases) {
   }
 }
 
-Case similarity(const std::string& name, double scale, double distance) {
-  return {name, "same to 1e-3", false, true, [scale, distance](const Shape& shape, Random& random) {
+Case similarity(const std::string& name, double scale, double distance, int number) {
+  return {name, "same to 1e-3", false, true, [=](const Shape& shape, Random& random) {
             Matrix4 map = random_similarity(scale, distance, random);
+            for (int i = 1; i < number; ++i) map = random_similarity(scale, distance, random);
             if (distance == 0) map.setIdentity(), map.topLeftCorner<3, 3>() *= scale;
             return Spoiled{moved(start(shape), map), map, scale};
           }};
@@ -94,9 +95,9 @@ std::vector<Case> all_cases(const Shapes& shapes) {
   for (const double scale : {1e-6, 1e-3, 1e3, 1e6}) {
     char text[32];
     std::snprintf(text, sizeof text, "scale %.0e", scale);
-    cases.push_back(similarity(text, scale, 0));
+    cases.push_back(similarity(text, scale, 0, 1));
   }
-  for (int i = 1; i <= 3; ++i) cases.push_back(similarity("rigid motion " + std::to_string(i), 1, 1));
+  for (int i = 1; i <= 3; ++i) cases.push_back(similarity("rigid motion " + std::to_string(i), 1, 1, i));
   add_amputations(shapes, cases);
   return cases;
 }

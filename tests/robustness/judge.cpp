@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/stopwatch.h"
+#include "mesh/fill_holes.h"
 
 namespace focal_robustness {
 namespace {
@@ -29,8 +30,19 @@ void compare_with_clean(const std::vector<DetectedLandmark>& found,
   }
 }
 
+double nearest_border(const TriangleMesh& mesh, const std::vector<std::vector<int32_t>>& loops,
+                      const Vector3& place) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const auto& loop : loops)
+    for (const int32_t v : loop)
+      nearest = std::min(nearest, (mesh.positions.row(v).transpose() - place).norm());
+  return nearest;
+}
+
 void judge(const Case& which, const Shape& shape, const Spoiled& spoiled,
            const std::vector<DetectedLandmark>& found, double edge, CaseResult& result) {
+  const auto border =
+      which.missing ? border_loops(spoiled.damaged.mesh) : std::vector<std::vector<int32_t>>{};
   for (size_t l = 0; l < found.size(); ++l) {
     if (!shape.marks[l]) continue;
     const auto& truth = spoiled.damaged.marks[l];
@@ -41,6 +53,9 @@ void judge(const Case& which, const Shape& shape, const Spoiled& spoiled,
     const bool said_absent = found[l].status == LandmarkStatus::absent;
     result.said_absent += said_absent, result.truly_absent += !truth;
     result.both_absent += said_absent && !truth;
+    (truth ? result.confidence_here : result.confidence_gone).push_back(found[l].confidence);
+    (truth ? result.border_here : result.border_gone)
+        .push_back(nearest_border(spoiled.damaged.mesh, border, found[l].position) / edge);
     if (truth)
       result.errors.push_back((found[l].position - position_of(spoiled.damaged.mesh, *truth)).norm() /
                               (edge * spoiled.scale));
@@ -64,6 +79,13 @@ double CaseResult::median() const {
 double CaseResult::share_over(double limit) const {
   const auto over = std::count_if(errors.begin(), errors.end(), [&](double e) { return e > limit; });
   return ratio(static_cast<double>(over), static_cast<double>(errors.size()));
+}
+
+double CaseResult::separation(const std::vector<double>& here, const std::vector<double>& gone) {
+  double lower = 0;
+  for (const double h : here)
+    for (const double g : gone) lower += g < h ? 1 : g == h ? 0.5 : 0;
+  return ratio(lower, static_cast<double>(here.size() * gone.size()));
 }
 
 CaseResult run_case(const Case& which, const Shapes& shapes,
@@ -98,15 +120,18 @@ CaseResult run_case(const Case& which, const Shapes& shapes,
 }
 
 void print_table(const std::vector<CaseResult>& results) {
-  std::printf("%-24s %-20s %6s %7s %7s %7s %6s %9s %9s %7s %9s\n", "case", "wanted", "marks", "mean",
-              "+clean", "median", "over10", "absent P", "absent R", "failed", "deviation");
+  std::printf("%-24s %-20s %6s %7s %7s %7s %6s %9s %9s %7s %9s %9s %9s\n", "case", "wanted", "marks", "mean",
+              "+clean", "median", "over10", "absent P", "absent R", "failed", "by conf", "by border",
+              "deviation");
   const double clean = results.front().mean();
   for (const CaseResult& r : results) {
     std::printf("%-24s %-20s %6zu %7.2f %+7.2f %7.2f %6.3f ", r.name.c_str(), r.wanted.c_str(),
                 r.errors.size(), r.mean(), r.mean() - clean, r.median(), r.share_over(10));
     const double precision = ratio(r.both_absent, r.said_absent),
                  recall = ratio(r.both_absent, r.truly_absent);
-    std::printf("%9.3f %9.3f %7d", precision, recall, r.failed);
+    std::printf("%9.3f %9.3f %7d %9.3f %9.3f", precision, recall, r.failed,
+                CaseResult::separation(r.confidence_here, r.confidence_gone),
+                CaseResult::separation(r.border_here, r.border_gone));
     if (r.similarity) std::printf(" %9.2e", r.deviation);
     std::printf("\n");
   }
@@ -130,6 +155,9 @@ nlohmann::json json_of(const std::vector<CaseResult>& results) {
     if (r.missing) {
       one["truly_absent"] = r.truly_absent;
       one["absent_precision"] = number(ratio(r.both_absent, r.said_absent));
+      one["absent_auroc_by_confidence"] =
+          number(CaseResult::separation(r.confidence_here, r.confidence_gone));
+      one["absent_auroc_by_border"] = number(CaseResult::separation(r.border_here, r.border_gone));
       one["absent_recall"] = number(ratio(r.both_absent, r.truly_absent));
     }
     if (r.similarity) one["deviation_edges"] = number(r.deviation);

@@ -15,12 +15,16 @@ struct CaseResult {
   std::vector<double> errors;  // of the marks that remain, in mean edges of the clean mesh
   double deviation = 0;        // of similarities: largest, from the clean answer, in the same unit
   int said_absent = 0, truly_absent = 0, both_absent = 0, lost_in_holes = 0, failed = 0;
+  // What could tell the absent ones: their confidence, and how near they were put to a border of the surface.
+  std::vector<double> confidence_here, confidence_gone, border_here, border_gone;  // the latter in mean edges
   bool missing = false, similarity = false;
   double seconds = 0;
 
   double mean() const;
   double median() const;
   double share_over(double limit) const;
+  // Probability that an absent landmark gets the lower value of a random pair with one that is here; NaN without any.
+  static double separation(const std::vector<double>& here, const std::vector<double>& gone);
 };
 
 // The answers of the clean shapes, positions by landmark, or none; one for each judged shape.

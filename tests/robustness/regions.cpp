@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "geodesics/heat_method.h"
+#include "landmarks/regions.h"
 #include "operators/operators.h"
 
 namespace focal_robustness {
@@ -21,6 +22,18 @@ RowMatrixf distances_from(const PreparedMesh& mesh, std::vector<SurfacePoint> po
   const RowMatrixf fields = heat.distances(points, {});
   RowMatrixf result(fields.rows(), mesh.source.vertex_count());
   for (Eigen::Index v = 0; v < result.cols(); ++v) result.col(v) = fields.col(mesh.surface_vertex[v]);
+  return result;
+}
+
+// As focal_detection_distances gives them, in sqrt(area).
+std::vector<std::vector<float>> product_distances(const std::shared_ptr<const PreparedMesh>& mesh,
+                                                  const std::vector<DetectedLandmark>& landmarks) {
+  const DistanceFields fields(make_proxy(mesh, TrainParams{}.proxy_vertices, true), {});
+  std::vector<std::vector<float>> result;
+  for (const auto& landmark : landmarks) {
+    result.push_back(fields.from(landmark.source_point, {}));
+    for (float& distance : result.back()) distance /= static_cast<float>(mesh->scale);
+  }
   return result;
 }
 
@@ -70,10 +83,9 @@ std::vector<RegionResult> measure_regions(const Shapes& shapes,
   for (const double radius : radii) results.push_back({radius, 0, 0, 0, 0});
   for (size_t s = 0; s < shapes.judged.size(); ++s) {
     const Shape& shape = shapes.judged[s];
-    std::vector<SurfacePoint> places = true_points(shape);
-    for (const auto& landmark : found[s]) places.push_back(landmark.source_point);
-    const PreparedMesh mesh = prepare(shape.mesh);
-    const RowMatrixf fields = distances_from(mesh, places);
+    const auto mesh = std::make_shared<const PreparedMesh>(prepare(in_single_precision(shape.mesh)));
+    const RowMatrixf ideal = distances_from(*mesh, true_points(shape));
+    const auto fields = product_distances(mesh, found[s]);
     const Vector area = vertex_areas(shape.mesh);
     const auto L = static_cast<Eigen::Index>(shape.marks.size());
     for (size_t t = 0; t < truths.size(); ++t) {
@@ -81,9 +93,9 @@ std::vector<RegionResult> measure_regions(const Shapes& shapes,
       for (auto& r : results)
         for (Eigen::Index l = 0; l < L; ++l) {
           const float* truth = &truths[t](l, 0);
-          const double value = iou(area, map, truth, &fields(L + l, 0), r.radius);
+          const double value = iou(area, map, truth, fields[l].data(), r.radius);
           r.found_iou += value, r.share_under += value < 0.7, ++r.regions;
-          r.true_iou += iou(area, map, truth, &fields(l, 0), r.radius);
+          r.true_iou += iou(area, map, truth, &ideal(l, 0), r.radius);
         }
     }
   }

@@ -75,15 +75,10 @@ Shapes load_shapes(Split split, int32_t limit) {
     shapes.landmark_names = about["landmark_names"].get<std::vector<std::string>>();
     for (const auto& name : about["train"])
       shapes.training.push_back(read_shape(*set, name, shapes.landmark_names));
-    for (const auto& name : about["test"])
+    for (const auto& name : about[split == Split::test ? "test" : "extra"])
       shapes.judged.push_back(read_shape(*set, name, shapes.landmark_names));
   } else {
     shapes = sample_shapes();
-  }
-  if (split == Split::validation) {
-    const auto learned = static_cast<std::ptrdiff_t>(shapes.training.size() * 6 / 10);
-    shapes.judged.assign(shapes.training.begin() + learned, shapes.training.end());
-    shapes.training.resize(static_cast<size_t>(learned));
   }
   keep_some(shapes.judged, limit);
   return shapes;

@@ -26,7 +26,7 @@ struct Shapes {
 
 enum class Split {
   test,       // learn from the train split, judge on the test split
-  validation  // learn from the first 60 % of the train split, judge on the rest of it: to choose by
+  validation  // learn from the train split, judge on other meshes of its people (`extra`): to choose by
 };
 
 // limit: judge at most so many meshes, spread over the split.
