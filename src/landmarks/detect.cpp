@@ -124,7 +124,7 @@ Detection detect(std::shared_ptr<const LandmarkModel> model, const SurfaceAnalys
   if (analysis.heat.time_was_raised())
     result.warnings.push_back("the mesh is so fine that the time step of the heat method was raised");
   if (const int32_t holes = analysis.proxy.filled_holes)
-    result.warnings.push_back(std::to_string(holes) + (holes == 1 ? " small hole was" : " small holes were") +
+    result.warnings.push_back(std::to_string(holes) + (holes == 1 ? " hole was" : " holes were") +
                               " closed for the analysis");
   if (params.keep_votes) {
     result.votes = placement.votes.transpose();

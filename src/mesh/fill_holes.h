@@ -1,4 +1,4 @@
-// Small holes closed, so that the analysis sees the surface that a scanner missed: heat, spectra and geodesics change much
+// Holes closed, so that the analysis sees the surface that a scanner missed: heat, spectra and geodesics change much
 // where a surface is open. Borders of simple loops only; whatever cannot be closed cleanly stays open.
 #pragma once
 #include <vector>
@@ -20,7 +20,7 @@ struct FilledMesh {
   TriangleMesh mesh;
 };
 
-// About 0.1 s for a million triangles without a hole.
+// About 0.1 s for a million triangles without a hole, and a few milliseconds a hole.
 FilledMesh fill_holes(const TriangleMesh& mesh, const FillParams& params = {});
 
 // The border as simple closed loops of vertices, in the order in which a patch's triangles run along it. Borders that

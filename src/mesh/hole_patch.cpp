@@ -223,23 +223,22 @@ bool Patch::flip_edges() {
   return !added.empty();
 }
 
-// Smooth: inner vertices where the umbrella of the umbrellas is zero, so that the patch leaves the rim in the direction of
-// the surface. Otherwise where the umbrella is zero: a soap film.
-void Patch::fair(bool is_smooth) {
+using Neighbours = std::vector<std::set<int32_t>>;
+
+// The umbrella of each vertex of a patch, mean of its neighbours less itself: umbrella * inner positions + constant.
+struct Umbrellas {
+  Matrix umbrella, constant;
+};
+
+Umbrellas umbrellas_of(const HoleLoop& loop, const std::vector<Vector3>& positions, const Neighbours& near) {
   const auto n = static_cast<int32_t>(loop.positions.size()), all = static_cast<int32_t>(positions.size());
-  const int32_t inner = all - n;
-  if (inner == 0) return;
-  std::vector<std::set<int32_t>> near(all);
-  for (const auto& t : triangles)
-    for (int i = 0; i < 3; ++i) near[t[i]].insert(t[(i + 1) % 3]), near[t[(i + 1) % 3]].insert(t[i]);
-  // Rows: U = umbrella of each vertex, as a function of the inner positions and a constant.
-  Matrix umbrella = Matrix::Zero(all, inner), constant = Matrix::Zero(all, 3);
+  Umbrellas result{Matrix::Zero(all, all - n), Matrix::Zero(all, 3)};
   for (int32_t v = 0; v < all; ++v) {
     const auto add = [&](int32_t w, double factor) {
       if (w >= n)
-        umbrella(v, w - n) += factor;
+        result.umbrella(v, w - n) += factor;
       else
-        constant.row(v) += factor * positions[w].transpose();
+        result.constant.row(v) += factor * positions[w].transpose();
     };
     std::vector<int32_t> patch_only;
     for (const int32_t w : near[v]) {  // the rim itself is among the surface's neighbours already
@@ -249,18 +248,28 @@ void Patch::fair(bool is_smooth) {
     const double outer = v < n ? loop.outer_count[v] : 0;
     const double degree = static_cast<double>(patch_only.size()) + outer;
     for (const int32_t w : patch_only) add(w, 1 / degree);
-    if (v < n) constant.row(v) += loop.outer_sum[v].transpose() / degree;
+    if (v < n) result.constant.row(v) += loop.outer_sum[v].transpose() / degree;
     add(v, -1);
   }
-  Matrix system(inner, inner), right(inner, 3);
-  for (int32_t v = n; v < all; ++v) {
-    system.row(v - n) = -umbrella.row(v), right.row(v - n) = constant.row(v);
-    if (!is_smooth) continue;
+  return result;
+}
+
+// Smooth: inner vertices where the umbrella of the umbrellas is zero, so that the patch leaves the rim in the direction of
+// the surface. Otherwise where the umbrella is zero: a soap film.
+void Patch::fair(bool is_smooth) {
+  const auto n = static_cast<int32_t>(loop.positions.size()), all = static_cast<int32_t>(positions.size());
+  const int32_t inner = all - n;
+  if (inner == 0) return;
+  Neighbours near(all);
+  for (const auto& t : triangles)
+    for (int i = 0; i < 3; ++i) near[t[i]].insert(t[(i + 1) % 3]), near[t[(i + 1) % 3]].insert(t[i]);
+  const auto [umbrella, constant] = umbrellas_of(loop, positions, near);
+  Matrix system = -umbrella.bottomRows(inner), right = constant.bottomRows(inner);
+  for (int32_t v = n; is_smooth && v < all; ++v)
     for (const int32_t w : near[v]) {
       system.row(v - n) += umbrella.row(w) / static_cast<double>(near[v].size());
       right.row(v - n) -= constant.row(w) / static_cast<double>(near[v].size());
     }
-  }
   const Matrix solution = system.partialPivLu().solve(right);
   const Vector3 middle = positions[0];
   double reach = 0;

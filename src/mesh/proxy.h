@@ -13,7 +13,7 @@ struct Proxy {
   std::shared_ptr<const PreparedMesh>
       coarse;  // its source lies in full's surface coordinates; or full itself
 
-  int32_t filled_holes = 0;  // small holes of the full surface that are closed on the coarse one
+  int32_t filled_holes = 0;  // holes of the full surface that are closed on the coarse one
 
   bool is_full() const { return coarse == full; }
   // Caller's units per unit of the coarse surface.
@@ -22,7 +22,7 @@ struct Proxy {
 
 // vertices: of the proxy, about; 0, or no fewer than the surface has: the surface itself.
 // Decimated by quadric error (M. Garland, P. Heckbert, "Surface Simplification Using Quadric Error Metrics", 1997).
-// fills_holes: small holes are closed first (see fill_holes). Points of a patch go over to the nearest of the full surface,
+// fills_holes: holes are closed first (see fill_holes). Points of a patch go over to the nearest of the full surface,
 // so nothing is ever found in a hole; a surface without holes is treated as if they stayed.
 Proxy make_proxy(std::shared_ptr<const PreparedMesh> mesh, int32_t vertices, bool fills_holes = false);
 
