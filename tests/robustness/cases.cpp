@@ -52,11 +52,15 @@ Case amputation(const std::string& name, std::vector<Limb> limbs, CutEnd end) {
 }
 
 void add_amputations(const Shapes& shapes, std::vector<Case>& cases) {
-  const auto limb = [&](const char* tip, const char* last, const char* next) {
-    return Limb{shapes.landmark(tip), shapes.landmark(last), shapes.landmark(next)};
+  // The names of faust5k, else of the sample humanoids.
+  const auto named = [&](const char* name, const char* otherwise) {
+    const int32_t landmark = shapes.landmark(name);
+    return landmark >= 0 ? landmark : shapes.landmark(otherwise);
   };
-  const Limb left = limb("hand.L", "elbow.L", "shoulder.L"), right = limb("hand.R", "elbow.R", "shoulder.R"),
-             head = limb("head", "head", "shoulder.L");
+  const int32_t left_shoulder = shapes.landmark("shoulder.L");
+  const Limb left{named("hand.L", "handTip.L"), shapes.landmark("elbow.L"), left_shoulder},
+      right{named("hand.R", "handTip.R"), shapes.landmark("elbow.R"), shapes.landmark("shoulder.R")},
+      head{named("head", "crown"), named("head", "chin"), left_shoulder};
   for (const Limb& l : {left, right, head})
     if (l.tip < 0 || l.last < 0 || l.next < 0) return;  // another set of marks
   for (const CutEnd end : {CutEnd::open, CutEnd::capped}) {
