@@ -2,11 +2,13 @@
 #pragma once
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "handles.h"
 #include "landmarks/detect.h"
+#include "landmarks/regions.h"
 #include "mesh.h"
 #include "model.h"
 
@@ -24,9 +26,14 @@ struct DetectionObject {
   // Landmarks x vertices of the mesh's surface, carried over from the proxy when first asked for. Any thread.
   const RowMatrixf& full_votes() const;
 
+  // Made when first asked for. Any thread.
+  const DistanceFields& distance_fields(const Execution& execution) const;
+
  private:
   mutable std::once_flag votes_once_;
   mutable RowMatrixf votes_;
+  mutable std::once_flag distances_once_;
+  mutable std::optional<DistanceFields> distances_;
 };
 
 }  // namespace focal

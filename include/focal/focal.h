@@ -357,7 +357,8 @@ typedef struct focal_detect_params {
 FOCAL_API focal_status focal_detect_params_init(focal_detect_params* params, size_t struct_size);
 
 /* Finds the model's landmarks on a mesh. params and task may be NULL; runs in the model's context. Errors:
- * CANCELLED, NOT_CONVERGED. The detection keeps mesh and model alive. */
+ * CANCELLED, NOT_CONVERGED. The detection keeps mesh and model alive. Holes with a border of up to 1.5 sqrt(area) are
+ * closed for the analysis (preset default only; a warning tells how many); landmarks still lie on the caller's triangles. */
 FOCAL_API focal_status focal_model_detect(const focal_model* model, const focal_mesh* mesh,
                                           const focal_detect_params* params, focal_task* task,
                                           focal_detection** out_detection);
@@ -456,6 +457,19 @@ FOCAL_API const char* focal_detection_warning(const focal_detection* detection, 
  * the vertex); the largest is 1. vertex_count must be the mesh's. UNSUPPORTED when votes were not kept. */
 FOCAL_API focal_status focal_detection_votes(const focal_detection* detection, uint32_t index,
                                              uint64_t vertex_count, float* out_votes);
+
+/* Geodesic distances along the surface from one landmark's place, absent or not, to each of the caller's vertices, in the
+ * mesh's units: INFINITY where no triangle uses the vertex or no way leads there. The first call takes about 50 ms, each
+ * further one 10 ms. vertex_count must be the mesh's. INVALID_LANDMARK when the landmark has no place at all. */
+FOCAL_API focal_status focal_detection_distances(const focal_detection* detection, uint32_t index,
+                                                 uint64_t vertex_count, float* out_distances);
+
+/* The region within `radius` of one landmark, as a value for each of the caller's vertices: 1 inside, 0 outside, in between
+ * within half a mean edge of its border. radius is a share of sqrt(focal_mesh_info.surface_area), so one number means the
+ * same region on every mesh of a category, whatever its size: a radius r in the units of a mesh is r / sqrt(surface_area).
+ * Errors as above; INVALID_ARGUMENT for a radius below 0. */
+FOCAL_API focal_status focal_detection_region(const focal_detection* detection, uint32_t index, double radius,
+                                              uint64_t vertex_count, float* out_membership);
 
 /* Writes the caller's own glTF, nothing lost, plus a node for each landmark that is not absent and
  * mesh.extras.focal. It is the kind of file that was loaded: a path that ends in the other kind's suffix is

@@ -156,6 +156,16 @@ class Detection : public Owner<focal_detection, focal_detection_destroy> {
     check(focal_detection_votes(handle_, landmark, result.size(), result.data()));
     return result;
   }
+  std::vector<float> distances(uint32_t landmark) const {
+    std::vector<float> result(static_cast<size_t>(info().vertex_count));
+    check(focal_detection_distances(handle_, landmark, result.size(), result.data()));
+    return result;
+  }
+  std::vector<float> region(uint32_t landmark, double radius) const {
+    std::vector<float> result(static_cast<size_t>(info().vertex_count));
+    check(focal_detection_region(handle_, landmark, radius, result.size(), result.data()));
+    return result;
+  }
   void write_gltf(const std::string& path) const { check(focal_detection_write_gltf(handle_, path.c_str())); }
   void write_votes_gltf(const std::string& path) const {
     check(focal_detection_write_votes_gltf(handle_, path.c_str()));

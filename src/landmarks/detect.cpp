@@ -124,6 +124,9 @@ Detection detect(std::shared_ptr<const LandmarkModel> model, const SurfaceAnalys
   result.category_fit = paper ? 1 : category_fit_of(model->calibration, placement.evidence);
   if (analysis.heat.time_was_raised())
     result.warnings.push_back("the mesh is so fine that the time step of the heat method was raised");
+  if (const int32_t holes = analysis.proxy.filled_holes)
+    result.warnings.push_back(std::to_string(holes) + (holes == 1 ? " hole was" : " holes were") +
+                              " closed for the analysis");
   if (params.keep_votes) {
     result.votes = placement.votes.transpose();
     for (Eigen::Index l = 0; l < result.votes.rows(); ++l)

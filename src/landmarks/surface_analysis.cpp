@@ -56,7 +56,7 @@ SurfaceAnalysis analyse_surface(std::shared_ptr<const PreparedMesh> mesh, const 
   SurfaceAnalysis result;
   Stopwatch watch;
   result.params = params;
-  result.proxy = make_proxy(std::move(mesh), params.proxy_vertices, execution);
+  result.proxy = make_proxy(std::move(mesh), params.proxy_vertices, execution, !params.to_the_letter);
   result.proxy_seconds = watch.lap();
   execution.check_cancelled();
   make_solvers(result, execution);

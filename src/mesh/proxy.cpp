@@ -4,6 +4,7 @@
 
 #include "mesh/closest_point.h"
 #include "mesh/decimate.h"
+#include "mesh/fill_holes.h"
 #include "mesh/nearest_vertex.h"
 
 namespace focal {
@@ -20,9 +21,17 @@ Vector3 normal_of(const TriangleMesh& mesh, int32_t t) {
 
 }  // namespace
 
-Proxy make_proxy(std::shared_ptr<const PreparedMesh> mesh, int32_t vertices, const Execution& execution) {
-  if (vertices == 0 || mesh->surface.vertex_count() <= worth_it * vertices) return {mesh, mesh};
-  return {mesh, std::make_shared<const PreparedMesh>(prepare(decimate(mesh->surface, vertices, execution)))};
+Proxy make_proxy(std::shared_ptr<const PreparedMesh> mesh, int32_t vertices, const Execution& execution,
+                 bool fills_holes) {
+  const FilledMesh filled = fills_holes ? fill_holes(mesh->surface) : FilledMesh{};
+  const TriangleMesh& surface = filled.holes > 0 ? filled.mesh : mesh->surface;
+  const bool is_small = vertices == 0 || surface.vertex_count() <= worth_it * vertices;
+  if (is_small && filled.holes == 0) return {mesh, mesh};
+  return {mesh,
+          std::make_shared<const PreparedMesh>(
+              prepare(is_small ? surface : decimate(surface, vertices, execution))),
+          filled.holes};
+}
 }
 
 std::vector<SurfacePoint> to_coarse(const Proxy& proxy, std::span<const SurfacePoint> full_points) {

@@ -14,13 +14,18 @@ struct Proxy {
   std::shared_ptr<const PreparedMesh>
       coarse;  // its source lies in full's surface coordinates; or full itself
 
+  int32_t filled_holes = 0;  // holes of the full surface that are closed on the coarse one
+
   bool is_full() const { return coarse == full; }
   // Caller's units per unit of the coarse surface.
   double scale() const { return is_full() ? full->scale : full->scale * coarse->scale; }
 };
 
 // vertices: of the proxy, about; 0, or no fewer than the surface has: the surface itself.
-Proxy make_proxy(std::shared_ptr<const PreparedMesh> mesh, int32_t vertices, const Execution& execution = {});
+// fills_holes: holes are closed first (see fill_holes). Points of a patch go over to the nearest of the full surface,
+// so nothing is ever found in a hole; a surface without holes is treated as if they stayed.
+Proxy make_proxy(std::shared_ptr<const PreparedMesh> mesh, int32_t vertices, const Execution& execution = {},
+                 bool fills_holes = false);
 
 // Nearest points on the other surface, on the side that faces the same way. On full->surface and coarse->surface.
 std::vector<SurfacePoint> to_coarse(const Proxy& proxy, std::span<const SurfacePoint> full_points);

@@ -1,4 +1,5 @@
 /* One small model through its whole life: train, save, load, damage, detect, write. */
+#include <math.h>
 #include <stdlib.h>
 
 #include "check.h"
@@ -110,6 +111,48 @@ static void check_votes(const focal_detection* detection, const shape* body) {
   free(votes);
 }
 
+/* Distances start at the landmark and grow past the straight way; the region is what lies within the radius. */
+static void check_regions(const focal_detection* detection, const shape* body) {
+  focal_mesh* mesh = shape_mesh(context, RINGS, 0.07f);
+  focal_landmark landmark;
+  focal_mesh_info info;
+  float* distances = malloc(body->vertex_count * sizeof *distances);
+  float* region = malloc(body->vertex_count * sizeof *region);
+  CHECK_OK(focal_landmark_init(&landmark, sizeof landmark));
+  CHECK_OK(focal_detection_get_landmark(detection, 1, &landmark));
+  CHECK_OK(focal_mesh_info_init(&info, sizeof info));
+  CHECK_OK(focal_mesh_get_info(mesh, &info));
+  const double radius = 0.3 * sqrt(info.surface_area), edge = info.mean_edge_length;
+  CHECK_OK(focal_detection_distances(detection, 1, body->vertex_count, distances));
+  CHECK_OK(focal_detection_region(detection, 1, 0.3, body->vertex_count, region));
+  CHECK(distances[landmark.vertex] < edge);
+  int inside = 0, outside = 0;
+  for (uint64_t v = 0; v < body->vertex_count; ++v) {
+    double squared = 0;
+    for (int k = 0; k < 3; ++k)
+      squared += pow(landmark.position[k] - body->positions[3 * v + (uint64_t)k], 2);
+    CHECK(distances[v] > 0.9 * sqrt(squared) - edge && distances[v] < 20 * edge * RINGS);
+    CHECK(region[v] >= 0 && region[v] <= 1);
+    const int is_inside = distances[v] < radius - edge, is_outside = distances[v] > radius + edge;
+    CHECK(!is_inside || region[v] == 1);
+    CHECK(!is_outside || region[v] == 0);
+    inside += is_inside, outside += is_outside;
+  }
+  CHECK(inside > 5 && outside > 5);
+  CHECK_REFUSED(focal_detection_distances(detection, 0, 5, distances), FOCAL_ERROR_INVALID_ARGUMENT,
+                "vertex_count is 5");
+  CHECK_REFUSED(focal_detection_distances(detection, 9, body->vertex_count, distances),
+                FOCAL_ERROR_INVALID_ARGUMENT, "no number 9");
+  CHECK_REFUSED(focal_detection_region(detection, 0, -1, body->vertex_count, region),
+                FOCAL_ERROR_INVALID_ARGUMENT, "radius is -1");
+  CHECK_REFUSED(focal_detection_region(detection, 0, (double)NAN, body->vertex_count, region),
+                FOCAL_ERROR_INVALID_ARGUMENT, "radius");
+  CHECK_REFUSED(focal_detection_region(detection, 0, 1, body->vertex_count, NULL), FOCAL_ERROR_INVALID_ARGUMENT,
+                "out_membership");
+  free(distances), free(region);
+  focal_mesh_destroy(mesh);
+}
+
 static void check_summary(const focal_detection* detection, const shape* body) {
   focal_detection_info info;
   focal_stage_seconds seconds;
@@ -144,6 +187,7 @@ static void check_detection(const focal_model* model) {
   focal_mesh_destroy(mesh), focal_mesh_destroy(from_file); /* the detections keep what they need */
   check_landmarks(detection, &body);
   check_votes(detection, &body);
+  check_regions(detection, &body);
   check_summary(detection, &body);
   CHECK_OK(focal_detection_write_gltf(detection, "model_test_arrays.glb"));
   check_written("model_test_arrays.glb", &body);

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "mesh/fill_holes.h"
 #include "surfaces.h"
 
 using namespace focal;
@@ -65,4 +66,46 @@ TEST_CASE("the same proxy every time, still closed") {
   CHECK(a.coarse->surface.positions == b.coarse->surface.positions);
   CHECK(a.coarse->surface.triangles == b.coarse->surface.triangles);
   CHECK(a.coarse->surface.vertex_count() - a.coarse->surface.triangle_count() / 2 == 2);
+}
+
+TEST_CASE("a surface with holes is analysed closed, and nothing is found in a hole") {
+  const auto lost = [](const Vector3& p) { return p.z() > 0.95 || (p.x() > 0.97 && p.y() > 0); };
+  TriangleMesh holed = with_radius(sphere(5), [](const Vector3& p) { return 1 + 0.2 * p[0]; });
+  std::vector<int32_t> kept;
+  for (int32_t t = 0; t < holed.triangle_count(); ++t)
+    if (!lost(position_of(holed, {t, Vector3::Constant(1.0 / 3)}).normalized())) kept.push_back(t);
+  holed.triangles = MatrixX3i(holed.triangles(kept, Eigen::all));
+  for (const int32_t vertices : {0, 1200}) {
+    const Proxy open = make_proxy(prepared(holed), vertices),
+                closed = make_proxy(prepared(holed), vertices, {}, true);
+    CHECK(open.filled_holes == 0);
+    CHECK(closed.filled_holes == 2);
+    CHECK(!border_loops(open.coarse->surface).empty());
+    CHECK(border_loops(closed.coarse->surface).empty());
+    const TriangleMesh& coarse = closed.coarse->surface;
+    std::vector<SurfacePoint> points;
+    for (int32_t t = 0; t < coarse.triangle_count(); ++t) points.push_back({t, Vector3::Constant(1.0 / 3)});
+    const auto full = to_full(closed, points);
+    const double edge = mean_edge_length(closed.full->source);
+    int moved = 0;
+    for (size_t i = 0; i < points.size(); ++i) {
+      REQUIRE(full[i].triangle >= 0);  // a triangle of the caller's, always
+      const Vector3 there = position_of(closed.full->source, to_source(*closed.full, full[i]));
+      const Vector3 here =
+          closed.full->centre + closed.full->scale * (closed.coarse->centre +
+                                                      closed.coarse->scale * position_of(coarse, points[i]));
+      const bool in_hole = lost(here.normalized());
+      CHECK(((there - here).norm() < edge || in_hole));
+      moved += in_hole && (there - here).norm() > 2 * edge;
+    }
+    CHECK(moved > 0);  // from the middles of the holes to their rims
+  }
+}
+
+TEST_CASE("a closed surface has the same proxy whether holes are to be filled or not") {
+  const auto mesh = prepared(with_radius(sphere(5), lump));
+  const Proxy plain = make_proxy(mesh, 1000), filling = make_proxy(mesh, 1000, {}, true);
+  CHECK(plain.coarse->surface.positions == filling.coarse->surface.positions);
+  CHECK(plain.coarse->surface.triangles == filling.coarse->surface.triangles);
+  CHECK(make_proxy(mesh, 0, {}, true).is_full());
 }
