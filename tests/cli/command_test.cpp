@@ -85,9 +85,9 @@ const Eggs& eggs() {
 }
 
 const Keys kSummaryKeys = {
-    "marks",         "mean_edges", "median_edges",   "p95_edges", "mean_root_area_x100", "within_4_edges",
-    "over_10_edges", "swap_rate",  "flipped_meshes", "absent",    "calibration",         "category_fit_median",
-    "seconds_median"};
+    "marks",          "mean_edges",          "median_edges",  "p95_edges",      "mean_root_area_x100",
+    "within_4_edges", "over_10_edges",       "swap_rate",     "flipped_meshes", "absent",
+    "calibration",    "category_fit_median", "seconds_median"};
 
 void check_summary(const json& report) {
   for (const std::string& key : kSummaryKeys) {
@@ -95,8 +95,8 @@ void check_summary(const json& report) {
     CHECK(report.contains(key));
   }
   CHECK(keys_of(report["absent"]) == Keys{"precision", "recall"});
-  CHECK(keys_of(report["calibration"]) == Keys{"expected_calibration_error", "auroc", "sure_count",
-                                              "sure_within_4_edges", "bins"});
+  CHECK(keys_of(report["calibration"]) ==
+        Keys{"expected_calibration_error", "auroc", "sure_count", "sure_within_4_edges", "bins"});
   CHECK(report["calibration"]["bins"].size() == 10);
 }
 
@@ -250,9 +250,8 @@ TEST_CASE("eval: keys, subset and limit") {
   check_summary(report);
   REQUIRE(report["meshes"].size() == 2);
   for (const json& mesh : report["meshes"]) {
-    CHECK(keys_of(mesh) ==
-          Keys{"name", "vertices", "seconds", "category_fit", "errors_edges", "errors_root_area",
-               "confidences", "said_absent", "swapped", "flipped"});
+    CHECK(keys_of(mesh) == Keys{"name", "vertices", "seconds", "category_fit", "errors_edges",
+                                "errors_root_area", "confidences", "said_absent", "swapped", "flipped"});
     CHECK(keys_of(mesh["confidences"]) == keys_of(mesh["errors_edges"]));
     CHECK(mesh["category_fit"].get<double>() >= 0);
     CHECK(mesh["category_fit"].get<double>() <= 1);

@@ -4,7 +4,7 @@ const data = prepare(JSON.parse(document.getElementById("focal-data").textConten
 const renderer = createRenderer();
 const byId = (id) => document.getElementById(id);
 const state = { mesh: 0, name: null, turn: null, zoom: 1, up: data.up };
-const cardsShown = 12;
+const cardsShown = 12, cardsOfOneMesh = 3; // or one flipped mesh would fill the list
 
 function currentMesh() {
   return data.meshes[state.mesh];
@@ -149,15 +149,23 @@ function listenToControls() {
 }
 
 function drawCard(canvas) {
-  const { index, name } = data.cases[Number(canvas.dataset.case)];
-  const mesh = data.meshes[index];
+  const mesh = data.meshes[Number(canvas.dataset.mesh)], name = canvas.dataset.name;
   drawPicture(renderer, canvas, mesh, { turn: startingTurn(mesh, name), zoom: 1, name, votes: true, marks: true, names: false });
 }
 
+function worstCases() {
+  const taken = new Map();
+  const rank = data.cases.map((c) => {
+    taken.set(c.index, (taken.get(c.index) ?? 0) + 1);
+    return { ...c, later: taken.get(c.index) > cardsOfOneMesh };
+  });
+  return rank.filter((c) => !c.later).slice(0, cardsShown);
+}
+
 function fillWorst() {
-  data.cases.slice(0, cardsShown).forEach(({ index, name, error }, place) => {
+  worstCases().forEach(({ index, name, error }) => {
     const mesh = data.meshes[index];
-    const canvas = element("canvas", { "data-case": place, "aria-hidden": "true" });
+    const canvas = element("canvas", { "data-mesh": index, "data-name": name, "aria-hidden": "true" });
     byId("worst").append(element("li", {}, element("button",
       { type: "button", "data-mesh": index, "data-name": name, "aria-pressed": "false", title: caseText(mesh, name), onclick: () => show(index, name) },
       canvas, element("span", { class: "case" }, element("b", {}, name), ` on ${mesh.name}`),
@@ -169,19 +177,25 @@ function fillWorst() {
 function fillFigures() {
   const c = data.calibration, flips = data.flipped_meshes;
   const figures = [
-    ["mean error", `${text(data.mean_edges)} edges`, `${text(data.mean_root_area_x100)} % of √area`],
-    ["median", `${text(data.median_edges)} edges`, `95 %: ${text(data.p95_edges)}`],
+    ["mean error", text(data.mean_edges), `edges; ${text(data.mean_root_area_x100)} % of √area`],
+    ["median error", text(data.median_edges), `edges; 95 % below ${text(data.p95_edges)}`],
     ["within 4 edges", percent(data.within_4_edges, 1), `over 10: ${percent(data.over_10_edges, 1)}`],
     ["flipped meshes", flips === null ? "–" : String(flips), flips === null ? "the set has no pairs" : `swapped: ${percent(data.swap_rate, 1)}`],
     ["calibration error", text(c.expected_calibration_error, 3), `AUROC ${text(c.auroc, 3)}`],
-    ["confident and right", percent(c.sure_within_4_edges, 1), `of ${c.sure_count} with 0.9 or more`],
-    ["called absent", data.absent.precision === null ? "none" : percent(data.absent.precision),
-      data.absent.recall === null ? "none is absent" : `recall ${percent(data.absent.recall)}`],
-    ["category fit", percent(data.category_fit_median), `median; ${text(data.seconds_median)} s a mesh`],
+    ["sure and right", c.sure_count ? percent(c.sure_within_4_edges, 1) : "none", c.sure_count ? `of ${c.sure_count} with confidence ≥ 0.9` : "has confidence ≥ 0.9"],
+    ["called absent", data.absent.precision === null ? "none" : `${percent(data.absent.precision)} right`,
+      data.absent.recall === null ? "none truly is" : `recall ${percent(data.absent.recall)}`],
+    ["category fit", percent(data.category_fit_median), `median; ${text(data.seconds_median)} s each`],
   ];
   for (const [title, value, more] of figures) {
     byId("figures").append(element("div", { class: "card" }, element("dt", {}, title), element("dd", {}, value), element("dd", { class: "more" }, more)));
   }
+}
+
+function calibrationText(calibration) {
+  const sure = calibration.sure_count === 0 ? "no landmark has confidence 0.9 or more"
+    : `of ${calibration.sure_count} landmarks with confidence 0.9 or more, ${percent(calibration.sure_within_4_edges, 1)} lie within 4 edges`;
+  return `Expected calibration error ${text(calibration.expected_calibration_error, 3)}, AUROC ${text(calibration.auroc, 3)}; ${sure}.`;
 }
 
 function fillHead() {
@@ -214,9 +228,7 @@ landmarkTable(byId("landmarks"), data, (name) => showAndGo(state.mesh, name));
 meshTable(byId("meshes"), data, (index) => showAndGo(index, null));
 errorGrid(byId("errors"), data, showAndGo);
 byId("calibration").append(calibrationChart(data.calibration));
-byId("calibration-text").textContent = `Expected calibration error ${text(data.calibration.expected_calibration_error, 3)}, ` +
-  `AUROC ${text(data.calibration.auroc, 3)}; of ${data.calibration.sure_count} landmarks with confidence 0.9 or more, ` +
-  `${percent(data.calibration.sure_within_4_edges, 1)} lie within 4 edges.`;
+byId("calibration-text").textContent = calibrationText(data.calibration);
 const first = data.cases[0];
 show(first ? first.index : 0, first ? first.name : null);
 for (const canvas of document.querySelectorAll("#worst canvas")) drawCard(canvas);

@@ -179,7 +179,7 @@ function drawPicture(renderer, canvas, mesh, options) {
   const marks = names.flatMap((name) => marksOf(mesh, name, options.name !== null));
   const depth = (mark) => turned(view.turn, ...mark.at)[2] + (mark.kind === "guess" ? 0.02 : 0);
   marks.sort((a, b) => depth(a) - depth(b));
-  const size = options.name ? 6 : 4.2, places = [];
+  const size = (options.name ? 6 : 4.2) * Math.min(1, 0.35 + canvas.clientHeight / 700), places = [];
   for (const mark of marks) {
     const [x, y] = drawMark(context, surface, view, mark, ratio, size);
     if (mark.kind === "guess" || (mark.kind === "mark" && !mesh.found[mark.name]?.position)) {
