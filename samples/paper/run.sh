@@ -1,6 +1,7 @@
 #!/bin/sh
 # Pictures of votes like the paper's Figs. 7-11 in build/paper/votes.html: of the sample characters, and of real meshes where
-# FOCAL_EVALUATION_DATA (or ../shared/data) has them. usage: run.sh [SET...]      sets of your own instead
+# FOCAL_EVALUATION_DATA (or ../shared/data) has them; some minutes a set, since preset paper analyses every mesh in full.
+# usage: run.sh [SET...]      sets of your own instead
 set -eu
 cd "$(dirname "$0")/../.."
 bin=build/release
