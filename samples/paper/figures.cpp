@@ -116,6 +116,10 @@ std::string look_alikes(const Set& set, const Models& models) {
           vote_figure(models.found(preset), set.test[0].mesh, question, label_of(preset, name)));
     }
   }
+  picture::Figure both = figures.front();  // all are seen from where both sides are
+  both.marks = {{"one", place_of(set.test[0], one)}, {"other", place_of(set.test[0], other)}};
+  const double yaw = picture::best_yaw(both);
+  for (picture::Figure& figure : figures) figure.yaw = yaw;
   return section(
       "Left or right",
       "The same surface asked for a landmark and for its mirror image: votes that cannot tell them "
@@ -143,6 +147,7 @@ std::string by_change(const focal::Context& context, const Set& set, const Model
           vote_figure(detect(models.of(preset), mesh), mesh, question, label_of(preset, label)));
     }
   }
+  for (picture::Figure& figure : figures) figure.yaw = figures.front().yaw;
   return section(title, words, figures, changes.size());
 }
 

@@ -17,7 +17,8 @@ namespace {
 constexpr int kPanelWidth = 2300, kPanelHeight = 3000, kMargin = 160, kCaption = 300;
 constexpr int kSlabs = 28, kShades = 26;
 constexpr int kHeats = 20,
-              kHeatShades = 12;  // of a figure with heat: fewer shades, or each path holds but a triangle
+              kHeatShades = 12;      // of a figure with heat: fewer shades, or each path holds but a triangle
+constexpr size_t kLongCaption = 24;  // letters that fit into a panel
 constexpr double kBall = 46;
 
 int rounded(double x) { return static_cast<int>(std::lround(x)); }
@@ -173,8 +174,9 @@ std::string draw(const std::vector<Figure>& figures, size_t columns) {
     svg += "<g transform=\"translate(" + std::to_string(x + kMargin) + " " + std::to_string(y + kMargin) +
            ")\">\n" + surface_of(panel, !figures[i].heat.empty()) + balls_of(figures[i], panel, colours) +
            "<text x=\"" + std::to_string(kPanelWidth / 2 - kMargin) + "\" y=\"" +
-           std::to_string(kPanelHeight - kMargin + kCaption / 4) + "\">" + escaped(figures[i].caption) +
-           "</text>\n</g>\n";
+           std::to_string(kPanelHeight - kMargin + kCaption / 4) + "\"" +
+           (figures[i].caption.size() > kLongCaption ? " style=\"font-size:112px\"" : "") + ">" +
+           escaped(figures[i].caption) + "</text>\n</g>\n";
   }
   return svg + "</svg>\n";
 }
