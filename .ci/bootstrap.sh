@@ -4,7 +4,7 @@
 set -eu
 packages="g++ cmake ninja-build pkgconf libeigen3-dev libspectra-dev libtinygltf-dev nlohmann-json3-dev
   libmeshoptimizer-dev libcli11-dev doctest-dev"
-[ "${1:-}" = ci ] && packages="$packages abigail-tools clang-format-14 valgrind"
+[ "${1:-}" = ci ] && packages="$packages abigail-tools chromium clang-format-14 valgrind"
 
 if ! command -v dpkg-query > /dev/null; then
   # shellcheck disable=SC2086  # the packages are words

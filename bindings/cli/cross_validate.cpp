@@ -97,19 +97,6 @@ class CrossValidation {
   size_t step_ = 0;
 };
 
-Json landmarks_json(std::span<const MeshOutcome> outcomes) {
-  Json list = Json::array();
-  for (const LandmarkSummary& row : summarise_landmarks(outcomes)) {
-    list.push_back({{"name", row.name},
-                    {"marks", row.marks},
-                    {"mean_edges", row.mean_edges},
-                    {"median_edges", row.median_edges},
-                    {"max_edges", row.max_edges},
-                    {"over_10_edges", row.over_10_edges}});
-  }
-  return list;
-}
-
 void cross_validate(const Options& options) {
   const SetFolder set = read_set(options.set);
   const std::vector<std::string> names = set.meshes(options.split, options.limit);

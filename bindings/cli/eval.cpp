@@ -1,17 +1,20 @@
 // focal eval: how well a model finds the marks of a set.
 #include <iostream>
+#include <optional>
 
 #include "command_error.h"
+#include "files.h"
 #include "output.h"
 #include "parameters.h"
 #include "progress.h"
 #include "report.h"
+#include "report_page.h"
 
 namespace focal_cli {
 namespace {
 
 struct Options : CommonOptions {
-  std::string model, set, split = "test";
+  std::string model, set, split = "test", report;
   size_t limit = 0;
   std::vector<std::string> subset;
   focal_quality quality = FOCAL_QUALITY_BEST;
@@ -26,34 +29,64 @@ void check_some_known(const focal_model* model, const std::set<std::string>& cou
                      "'focal info MODEL' lists its landmarks; use a set with the same names");
 }
 
-void evaluate(const Options& options) {
-  const SetFolder set = read_set(options.set);
+// One detection after the other; what the page shows is taken from each before it goes.
+std::vector<MeshOutcome> outcomes_of(const focal_context* context, const focal_model* model,
+                                     const SetFolder& set, const std::set<std::string>& counted,
+                                     const Options& options, Progress& progress, ReportPage* page) {
   const std::vector<std::string> names = set.meshes(options.split, options.limit);
+  auto params = detect_params_of(options.quality, options);
+  params.keep_votes = page != nullptr;
+  std::vector<MeshOutcome> outcomes;
+  for (size_t i = 0; i < names.size(); ++i) {
+    focal_task* task = progress.begin(names[i], i, names.size());
+    const MarkedMesh mesh = load_marked_mesh(context, set, names[i]);
+    const TimedDetection found = detect_on(model, mesh, params, task);
+    outcomes.push_back(outcome_of(found, mesh, set, counted));
+    if (page) page->add(mesh, found, outcomes.back());
+  }
+  return outcomes;
+}
+
+Json report_of(const Options& options, const SetFolder& set, const focal_model* model,
+               const std::vector<MeshOutcome>& outcomes, const Summary& summary) {
+  auto info = initialised(focal_model_info_init);
+  check(focal_model_get_info(model, &info));
+  Json report = {{"set", set.name},
+                 {"model", options.model},
+                 {"preset", preset_name(info.preset)},
+                 {"split", options.split},
+                 {"quality", options.quality == FOCAL_QUALITY_BEST ? "best" : "interactive"}};
+  report["meshes"] = Json::array();
+  for (const MeshOutcome& mesh : outcomes) report["meshes"].push_back(mesh_json(mesh));
+  report["landmarks"] = landmarks_json(outcomes);
+  add_summary(report, summary);
+  return report;
+}
+
+void evaluate(const Options& options) {
+  if (!options.report.empty()) check_output_folder(options.report);
+  const SetFolder set = read_set(options.set);
   const std::set<std::string> counted = counted_landmarks(set, options.subset);
+  const size_t mesh_count = set.meshes(options.split, options.limit).size();
   const Context context = make_context(options);
   Progress progress(options.quiet);
   const auto model = owned<Model>(focal_model_load, context.get(), options.model.c_str());
   check_some_known(model.get(), counted, set.name);
-  auto params = detect_params_of(options.quality, options);
-  params.keep_votes = 0;
-  std::vector<MeshOutcome> outcomes;
-  for (size_t i = 0; i < names.size(); ++i) {
-    focal_task* task = progress.begin(names[i], i, names.size());
-    const MarkedMesh mesh = load_marked_mesh(context.get(), set, names[i]);
-    outcomes.push_back(evaluate_mesh(model.get(), mesh, set, counted, params, task));
-  }
+  std::optional<ReportPage> page;
+  if (!options.report.empty()) page.emplace(counted, mesh_count);
+  const std::vector<MeshOutcome> outcomes =
+      outcomes_of(context.get(), model.get(), set, counted, options, progress, page ? &*page : nullptr);
   progress.clear();
   const Summary summary = summarise(outcomes);
-  auto info = initialised(focal_model_info_init);
-  check(focal_model_get_info(model.get(), &info));
-  Json report = {{"set", set.name}, {"model", options.model}, {"preset", preset_name(info.preset)}};
-  report["meshes"] = Json::array();
-  for (const MeshOutcome& mesh : outcomes) report["meshes"].push_back(mesh_json(mesh));
-  add_summary(report, summary);
+  const Json report = report_of(options, set, model.get(), outcomes, summary);
+  if (page) write_file_atomically(options.report, page->html(report));
   if (options.json) print_json(report);
   if (!options.prints_text()) return;
+  print_landmarks(std::cout, outcomes);
+  std::cout << "\n";
   print_meshes(std::cout, outcomes);
   print_summary(std::cout, summary);
+  if (page) std::cout << "\nThe report is " << options.report << "; any browser opens it, offline too.\n";
 }
 
 }  // namespace
@@ -75,6 +108,9 @@ void add_eval(CLI::App& app) {
       ->type_name("NAME,NAME,...")
       ->delimiter(',')
       ->allow_extra_args(false);
+  verb->add_option("--report", options->report,
+                   "Page to write: meshes to turn with marks and vote maps, tables, curves; opens offline")
+      ->type_name("OUT.html");
   add_quality_option(*verb, options->quality);
   add_common_options(*verb, *options);
   verb->callback([options] { evaluate(*options); });

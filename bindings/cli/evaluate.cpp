@@ -47,14 +47,18 @@ double auroc_of(std::vector<Outcome> outcomes) {
 }
 
 Calibration calibrate(const std::vector<Outcome>& outcomes) {
-  Calibration result{0, auroc_of(outcomes), std::vector<CalibrationBin>(kCalibrationBins)};
+  Calibration result{0, auroc_of(outcomes), std::vector<CalibrationBin>(kCalibrationBins), 0, 0};
   for (const Outcome& outcome : outcomes) {
     const auto index = static_cast<size_t>(std::clamp(outcome.confidence, 0.0, 1.0) * kCalibrationBins);
     CalibrationBin& bin = result.bins[std::min(index, kCalibrationBins - 1)];
     bin.count += 1;
     bin.confidence += outcome.confidence;
     bin.accuracy += is_right(outcome);
+    const bool sure = outcome.confidence >= kSureConfidence;
+    result.sure_count += sure;
+    result.sure_right += sure && is_right(outcome);
   }
+  result.sure_right = ratio(result.sure_right, static_cast<double>(result.sure_count));
   for (size_t i = 0; i < kCalibrationBins; ++i) {
     CalibrationBin& bin = result.bins[i];
     bin.from = static_cast<double>(i) / kCalibrationBins;
@@ -151,9 +155,10 @@ std::optional<bool> is_flipped(const MeshOutcome& mesh) {
 }
 
 Summary summarise(std::span<const MeshOutcome> meshes) {
-  std::vector<double> edges, root_area, seconds;
+  std::vector<double> edges, root_area, seconds, fits;
   for (const MeshOutcome& mesh : meshes) {
     seconds.push_back(mesh.seconds);
+    fits.push_back(mesh.category_fit);
     for (const Outcome& outcome : mesh.outcomes) {
       if (!outcome.marked) continue;
       edges.push_back(outcome.error_edges);
@@ -166,7 +171,9 @@ Summary summarise(std::span<const MeshOutcome> meshes) {
   summary.median_edges = quantile(edges, 0.5);
   summary.p95_edges = quantile(edges, 0.95);
   summary.mean_root_area_x100 = 100 * mean(root_area);
+  summary.within_4_edges = 1 - share_over(edges, kRightEdges);
   summary.over_10_edges = share_over(edges, kFarEdges);
+  summary.category_fit_median = quantile(fits, 0.5);
   summary.seconds_median = quantile(seconds, 0.5);
   const std::vector<Outcome> outcomes = all_outcomes(meshes);
   add_swaps(meshes, summary);
@@ -186,8 +193,8 @@ std::vector<LandmarkSummary> summarise_landmarks(std::span<const MeshOutcome> me
   std::vector<LandmarkSummary> rows;
   for (const std::string& name : names) {
     const std::vector<double>& mine = errors[name];
-    rows.push_back(
-        {name, mine.size(), mean(mine), quantile(mine, 0.5), quantile(mine, 1), share_over(mine, kFarEdges)});
+    rows.push_back({name, mine.size(), mean(mine), quantile(mine, 0.5), quantile(mine, 0.95),
+                    quantile(mine, 1), 1 - share_over(mine, kRightEdges), share_over(mine, kFarEdges)});
   }
   return rows;
 }

@@ -18,6 +18,8 @@ inline constexpr double kSwapEdges = 8;  // nearer to the mirror's mark and fart
 inline constexpr double kFlippedShare = 0.25;  // more of a mesh's pairs swapped than this: flipped
 inline constexpr double kRightEdges = 4;       // a landmark this near is right, when confidence is judged
 inline constexpr size_t kCalibrationBins = 10;
+inline constexpr double kSureConfidence =
+    0.9;  // a landmark found with this much is one a user will not check
 
 // What the detector said about one landmark. No position: it has no place at all, an infinite error.
 struct Guess {
@@ -47,6 +49,7 @@ struct MeshOutcome {
   uint64_t vertices = 0;
   double seconds = 0;
   std::vector<Outcome> outcomes;
+  double category_fit = 0;  // does the mesh belong to the model's category at all, 0..1
 };
 
 // marks: where the landmarks truly are, by name; what is missing is absent. mirror: both ways.
@@ -67,15 +70,19 @@ struct Calibration {
   double expected_error = 0;  // sum over bins of share x |accuracy - confidence|
   double auroc = 0;           // chance that a right one has more confidence than a wrong one, ties half
   std::vector<CalibrationBin> bins;
+  size_t sure_count = 0;  // with kSureConfidence or more
+  double sure_right = 0;  // share of them that is right; NaN without any
 };
 
 struct Summary {
   size_t marks = 0;
   double mean_edges = 0, median_edges = 0, p95_edges = 0, mean_root_area_x100 = 0, over_10_edges = 0;
+  double within_4_edges = 0;
   double swap_rate = 0;               // of all landmarks with a mirror on all meshes
   std::optional<int> flipped_meshes;  // empty for a set without pairs
   double absent_precision = 0, absent_recall = 0;
   Calibration calibration;
+  double category_fit_median = 0;
   double seconds_median = 0;
 };
 
@@ -84,7 +91,8 @@ Summary summarise(std::span<const MeshOutcome> meshes);
 struct LandmarkSummary {
   std::string name;
   size_t marks = 0;
-  double mean_edges = 0, median_edges = 0, max_edges = 0, over_10_edges = 0;
+  double mean_edges = 0, median_edges = 0, p95_edges = 0, max_edges = 0;
+  double within_4_edges = 0, over_10_edges = 0;
 };
 
 // One a landmark, in the order of first appearance.

@@ -57,7 +57,12 @@ std::vector<std::string> row_of(const MeshOutcome& mesh) {
           percent_text(swapped_share(mesh), 0),
           !flipped   ? "-"
           : *flipped ? "yes"
-                     : "no"};
+                     : "no",
+          percent_text(mesh.category_fit, 0)};
+}
+
+std::string sure_text(const Calibration& calibration) {
+  return percent_text(calibration.sure_right) + " of " + std::to_string(calibration.sure_count);
 }
 
 }  // namespace
@@ -70,18 +75,30 @@ std::vector<std::string> landmark_names_of(const focal_model* model) {
   return names;
 }
 
-MeshOutcome evaluate_mesh(const focal_model* model, const MarkedMesh& mesh, const SetFolder& set,
-                          const std::set<std::string>& counted, const focal_detect_params& params,
-                          focal_task* task) {
+TimedDetection detect_on(const focal_model* model, const MarkedMesh& mesh, const focal_detect_params& params,
+                         focal_task* task) {
   const auto start = std::chrono::steady_clock::now();
-  const auto detection = owned<Detection>(focal_model_detect, model, mesh.mesh.get(), &params, task);
+  auto detection = owned<Detection>(focal_model_detect, model, mesh.mesh.get(), &params, task);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  return {std::move(detection), elapsed.count()};
+}
+
+MeshOutcome outcome_of(const TimedDetection& found, const MarkedMesh& mesh, const SetFolder& set,
+                       const std::set<std::string>& counted) {
   std::map<std::string, Position> marks;
   for (const auto& [name, point] : mesh.marks) marks[name] = position_of(mesh.mesh.get(), point);
   const focal_mesh_info info = info_of(mesh.mesh.get());
   const MeshScale scale{info.mean_edge_length, std::sqrt(info.surface_area)};
-  return {mesh.name, info.vertex_count, mesh.load_seconds + elapsed.count(),
-          judge(guesses_of(detection.get(), counted), marks, set.mirror, scale)};
+  auto detected = initialised(focal_detection_info_init);
+  check(focal_detection_get_info(found.detection.get(), &detected));
+  return {mesh.name, info.vertex_count, mesh.load_seconds + found.seconds,
+          judge(guesses_of(found.detection.get(), counted), marks, set.mirror, scale), detected.category_fit};
+}
+
+MeshOutcome evaluate_mesh(const focal_model* model, const MarkedMesh& mesh, const SetFolder& set,
+                          const std::set<std::string>& counted, const focal_detect_params& params,
+                          focal_task* task) {
+  return outcome_of(detect_on(model, mesh, params, task), mesh, set, counted);
 }
 
 std::set<std::string> counted_landmarks(const SetFolder& set, const std::vector<std::string>& subset) {
@@ -96,8 +113,11 @@ std::set<std::string> counted_landmarks(const SetFolder& set, const std::vector<
 }
 
 Json mesh_json(const MeshOutcome& mesh) {
-  Json edges = Json::object(), root_area = Json::object();
+  Json edges = Json::object(), root_area = Json::object(), confidences = Json::object(),
+       absent = Json::array();
   for (const Outcome& outcome : mesh.outcomes) {
+    confidences[outcome.name] = outcome.confidence;
+    if (outcome.said_absent) absent.push_back(outcome.name);
     if (!outcome.marked) continue;
     edges[outcome.name] = outcome.error_edges;
     root_area[outcome.name] = outcome.error_root_area;
@@ -106,39 +126,65 @@ Json mesh_json(const MeshOutcome& mesh) {
   return {{"name", mesh.name},
           {"vertices", mesh.vertices},
           {"seconds", mesh.seconds},
+          {"category_fit", mesh.category_fit},
           {"errors_edges", edges},
           {"errors_root_area", root_area},
+          {"confidences", confidences},
+          {"said_absent", absent},
           {"swapped", swapped_share(mesh)},
           {"flipped", flipped ? Json(*flipped) : Json(nullptr)}};
 }
 
+Json landmarks_json(std::span<const MeshOutcome> meshes) {
+  Json list = Json::array();
+  for (const LandmarkSummary& row : summarise_landmarks(meshes)) {
+    list.push_back({{"name", row.name},
+                    {"marks", row.marks},
+                    {"mean_edges", row.mean_edges},
+                    {"median_edges", row.median_edges},
+                    {"p95_edges", row.p95_edges},
+                    {"max_edges", row.max_edges},
+                    {"within_4_edges", row.within_4_edges},
+                    {"over_10_edges", row.over_10_edges}});
+  }
+  return list;
+}
+
 void add_summary(Json& document, const Summary& summary) {
+  document["marks"] = summary.marks;
   document["mean_edges"] = summary.mean_edges;
   document["median_edges"] = summary.median_edges;
   document["p95_edges"] = summary.p95_edges;
   document["mean_root_area_x100"] = summary.mean_root_area_x100;
+  document["within_4_edges"] = summary.within_4_edges;
   document["over_10_edges"] = summary.over_10_edges;
   document["swap_rate"] = summary.swap_rate;
   document["flipped_meshes"] = summary.flipped_meshes ? Json(*summary.flipped_meshes) : Json(nullptr);
   document["absent"] = {{"precision", summary.absent_precision}, {"recall", summary.absent_recall}};
-  document["calibration"] = {{"expected_calibration_error", summary.calibration.expected_error},
-                             {"auroc", summary.calibration.auroc},
-                             {"bins", bins_json(summary.calibration.bins)}};
+  const Calibration& calibration = summary.calibration;
+  document["calibration"] = {{"expected_calibration_error", calibration.expected_error},
+                             {"auroc", calibration.auroc},
+                             {"sure_count", calibration.sure_count},
+                             {"sure_within_4_edges", calibration.sure_right},
+                             {"bins", bins_json(calibration.bins)}};
+  document["category_fit_median"] = summary.category_fit_median;
   document["seconds_median"] = summary.seconds_median;
 }
 
 void print_meshes(std::ostream& out, std::span<const MeshOutcome> meshes) {
   std::vector<std::vector<std::string>> rows = {
-      {"mesh", "vertices", "seconds", "mean", "median", "worst", "where", "swapped", "flipped"}};
+      {"mesh", "vertices", "seconds", "mean", "median", "worst", "where", "swapped", "flipped", "fit"}};
   for (const MeshOutcome& mesh : meshes) rows.push_back(row_of(mesh));
   print_table(out, rows);
 }
 
 void print_landmarks(std::ostream& out, std::span<const MeshOutcome> meshes) {
-  std::vector<std::vector<std::string>> rows = {{"landmark", "marks", "mean", "median", "worst", "over 10"}};
+  std::vector<std::vector<std::string>> rows = {
+      {"landmark", "marks", "mean", "median", "95 %", "worst", "within 4", "over 10"}};
   for (const LandmarkSummary& row : summarise_landmarks(meshes)) {
     rows.push_back({row.name, std::to_string(row.marks), fixed_text(row.mean_edges, 2),
-                    fixed_text(row.median_edges, 2), fixed_text(row.max_edges, 2),
+                    fixed_text(row.median_edges, 2), fixed_text(row.p95_edges, 2),
+                    fixed_text(row.max_edges, 2), percent_text(row.within_4_edges),
                     percent_text(row.over_10_edges)});
   }
   print_table(out, rows);
@@ -150,6 +196,7 @@ void print_summary(std::ostream& out, const Summary& summary) {
               {{"  mean", fixed_text(summary.mean_edges, 2)},
                {"  median", fixed_text(summary.median_edges, 2)},
                {"  95th percentile", fixed_text(summary.p95_edges, 2)},
+               {"  within 4", percent_text(summary.within_4_edges)},
                {"  over 10", percent_text(summary.over_10_edges)},
                {"  mean in % of sqrt(area)", fixed_text(summary.mean_root_area_x100, 2)},
                {"Swapped left and right", percent_text(summary.swap_rate)},
@@ -158,6 +205,8 @@ void print_summary(std::ostream& out, const Summary& summary) {
                {"Absent, recall", percent_text(summary.absent_recall)},
                {"Confidence, calibration error", fixed_text(summary.calibration.expected_error, 3)},
                {"Confidence, AUROC", fixed_text(summary.calibration.auroc, 3)},
+               {"Confidence 0.9 or more, within 4", sure_text(summary.calibration)},
+               {"Category fit, median", percent_text(summary.category_fit_median, 0)},
                {"Seconds a mesh, median", fixed_text(summary.seconds_median, 2)}});
 }
 

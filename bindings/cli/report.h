@@ -12,7 +12,19 @@ namespace focal_cli {
 
 std::vector<std::string> landmark_names_of(const focal_model* model);
 
-// Detects on one mesh and compares with its marks. counted: the landmarks that count.
+struct TimedDetection {
+  Detection detection;
+  double seconds = 0;
+};
+
+TimedDetection detect_on(const focal_model* model, const MarkedMesh& mesh, const focal_detect_params& params,
+                         focal_task* task);
+
+// What was found against the mesh's marks. counted: the landmarks that count.
+MeshOutcome outcome_of(const TimedDetection& found, const MarkedMesh& mesh, const SetFolder& set,
+                       const std::set<std::string>& counted);
+
+// Both of the above.
 MeshOutcome evaluate_mesh(const focal_model* model, const MarkedMesh& mesh, const SetFolder& set,
                           const std::set<std::string>& counted, const focal_detect_params& params,
                           focal_task* task);
@@ -21,6 +33,7 @@ MeshOutcome evaluate_mesh(const focal_model* model, const MarkedMesh& mesh, cons
 std::set<std::string> counted_landmarks(const SetFolder& set, const std::vector<std::string>& subset);
 
 Json mesh_json(const MeshOutcome& mesh);
+Json landmarks_json(std::span<const MeshOutcome> meshes);
 void add_summary(Json& document, const Summary& summary);
 
 void print_meshes(std::ostream& out, std::span<const MeshOutcome> meshes);

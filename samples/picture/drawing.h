@@ -1,6 +1,7 @@
 // Shaded triangle meshes with landmark balls, side by side, as SVG text that stays small enough for a README.
 #pragma once
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -13,18 +14,20 @@ struct Mark {
   std::string name;
   Point position;
   bool uncertain = false;  // drawn hollow
+  std::string paint = {};  // a colour of CSS; empty: one of its name's own
 };
 
 struct Figure {
   std::vector<Point> positions;
   std::vector<std::array<uint32_t, 3>> triangles;  // counter-clockwise from outside
+  std::vector<double> heat;                        // 0..1 a vertex, drawn from clay to dark red; empty: clay
   std::vector<Mark> marks;
   std::string caption;
   double yaw = 0;    // degrees the figure is turned about +Y; at 0 it looks at the viewer along +Z
   double pitch = 8;  // degrees the viewer looks down on it
 };
 
-// Marks of the same name get the same colour in every figure.
-std::string draw(const std::vector<Figure>& figures);
+// Marks of the same name get the same colour in every figure. columns: figures in a row; 0: all of them.
+std::string draw(const std::vector<Figure>& figures, size_t columns = 0);
 
 }  // namespace picture

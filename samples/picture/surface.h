@@ -9,6 +9,7 @@ namespace picture {
 struct Patch {
   std::array<Point, 3> corners;  // x right, y down, z towards the viewer
   double shade;                  // 0 dark .. 1 bright
+  double heat;                   // mean of the corners; 0 without
 };
 
 struct Panel {

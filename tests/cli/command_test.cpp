@@ -84,9 +84,10 @@ const Eggs& eggs() {
   return made;
 }
 
-const Keys kSummaryKeys = {"mean_edges",    "median_edges",  "p95_edges",      "mean_root_area_x100",
-                           "over_10_edges", "swap_rate",     "flipped_meshes", "absent",
-                           "calibration",   "seconds_median"};
+const Keys kSummaryKeys = {
+    "marks",          "mean_edges",          "median_edges",  "p95_edges",      "mean_root_area_x100",
+    "within_4_edges", "over_10_edges",       "swap_rate",     "flipped_meshes", "absent",
+    "calibration",    "category_fit_median", "seconds_median"};
 
 void check_summary(const json& report) {
   for (const std::string& key : kSummaryKeys) {
@@ -94,7 +95,8 @@ void check_summary(const json& report) {
     CHECK(report.contains(key));
   }
   CHECK(keys_of(report["absent"]) == Keys{"precision", "recall"});
-  CHECK(keys_of(report["calibration"]) == Keys{"expected_calibration_error", "auroc", "bins"});
+  CHECK(keys_of(report["calibration"]) ==
+        Keys{"expected_calibration_error", "auroc", "sure_count", "sure_within_4_edges", "bins"});
   CHECK(report["calibration"]["bins"].size() == 10);
 }
 
@@ -243,15 +245,21 @@ TEST_CASE("the same landmarks, to the bit, for one thread and two") {
 TEST_CASE("eval: keys, subset and limit") {
   const json report = focal_json("eval " + eggs().model() + " " + eggs().folder());
   Keys expected = kSummaryKeys;
-  expected.insert({"set", "model", "preset", "meshes"});
+  expected.insert({"set", "model", "preset", "split", "quality", "meshes", "landmarks"});
   CHECK(keys_of(report) == expected);
   check_summary(report);
   REQUIRE(report["meshes"].size() == 2);
   for (const json& mesh : report["meshes"]) {
-    CHECK(keys_of(mesh) ==
-          Keys{"name", "vertices", "seconds", "errors_edges", "errors_root_area", "swapped", "flipped"});
+    CHECK(keys_of(mesh) == Keys{"name", "vertices", "seconds", "category_fit", "errors_edges",
+                                "errors_root_area", "confidences", "said_absent", "swapped", "flipped"});
+    CHECK(keys_of(mesh["confidences"]) == keys_of(mesh["errors_edges"]));
+    CHECK(mesh["category_fit"].get<double>() >= 0);
+    CHECK(mesh["category_fit"].get<double>() <= 1);
     CHECK(keys_of(mesh["errors_edges"]) == Keys{"nose", "horn.L", "horn.R", "tail"});
   }
+  REQUIRE(report["landmarks"].size() == 4);
+  CHECK(keys_of(report["landmarks"][0]) == Keys{"name", "marks", "mean_edges", "median_edges", "p95_edges",
+                                                "max_edges", "within_4_edges", "over_10_edges"});
   CHECK(report["flipped_meshes"].is_number());
   CHECK(report["absent"]["recall"].is_null());
   const json part =

@@ -109,6 +109,7 @@ TEST_CASE("totals run over all marks of all meshes") {
   CHECK(summary.p95_edges == doctest::Approx(12.9));
   CHECK(summary.mean_root_area_x100 == doctest::Approx(6));
   CHECK(summary.over_10_edges == doctest::Approx(1.0 / 3));
+  CHECK(summary.within_4_edges == doctest::Approx(2.0 / 3));
   CHECK(summary.seconds_median == doctest::Approx(3));
 }
 
@@ -136,6 +137,8 @@ TEST_CASE("calibration: bins, expected error and AUROC") {
   CHECK(calibration.bins[2].count == 1);
   CHECK(std::isnan(calibration.bins[5].accuracy));
   CHECK(calibration.expected_error == doctest::Approx((2 * 0.45 + 0.75 + 0.05) / 4));
+  CHECK(calibration.sure_count == 2);
+  CHECK(calibration.sure_right == doctest::Approx(0.5));
   // Right 0.9 and 0.25 against wrong 1.0 and 0.05: two of the four comparisons are won.
   CHECK(calibration.auroc == doctest::Approx(0.5));
 }
@@ -157,6 +160,12 @@ TEST_CASE("confidence in a landmark that the mesh lacks counts as wrong") {
   CHECK(std::isnan(summary.mean_edges));
 }
 
+TEST_CASE("no confidence of 0.9 or more: the share of such that is right is not defined") {
+  const Summary summary = summarise(std::vector{mesh_with({outcome(1, 0.89), outcome(20, 0.1)})});
+  CHECK(summary.calibration.sure_count == 0);
+  CHECK(std::isnan(summary.calibration.sure_right));
+}
+
 TEST_CASE("landmarks are summed up one by one") {
   Outcome a = outcome(2, 1), b = outcome(12, 1);
   a.name = "a", b.name = "b";
@@ -169,6 +178,9 @@ TEST_CASE("landmarks are summed up one by one") {
   CHECK(rows[0].over_10_edges == 1);
   CHECK(rows[1].marks == 1);
   CHECK(rows[1].mean_edges == 2);
+  CHECK(rows[1].p95_edges == 2);
+  CHECK(rows[1].within_4_edges == 1);
+  CHECK(rows[0].within_4_edges == 0);
 }
 
 TEST_CASE("folds are neighbours, of sizes that differ by one at most, none empty") {

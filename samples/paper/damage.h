@@ -1,0 +1,25 @@
+// Meshes made worse on purpose: noise, holes, other sizes, other resolutions.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <focal/focal.hpp>
+#include <vector>
+
+namespace paper {
+
+struct Shape {
+  std::vector<float> positions;   // x, y, z of each vertex
+  std::vector<uint32_t> indices;  // three a triangle
+};
+
+Shape shape_of(const focal::Mesh& mesh);
+focal::Mesh mesh_of(const focal::Context& context, const Shape& shape);
+
+Shape with_noise(Shape shape, double length, uint32_t seed);  // normally distributed in every coordinate
+Shape with_holes(Shape shape, size_t holes, uint32_t seed);   // each the triangles around one vertex
+Shape scaled(Shape shape, double factor);
+Shape resampled(const Shape& shape,
+                double share);  // share below 1: decimated; above: each triangle into four
+double mean_edge(const Shape& shape);
+
+}  // namespace paper

@@ -1,0 +1,153 @@
+// A set of marked meshes, models of it, and one detection as a figure. See experiment.h.
+#include "experiment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "picture/surface.h"
+
+namespace paper {
+namespace {
+
+using Json = nlohmann::json;
+
+Json read_json(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) throw std::runtime_error("cannot read " + path);
+  return Json::parse(file);
+}
+
+Marked load_marked(const focal::Context& context, const std::string& folder, const std::string& name) {
+  Marked marked{name, focal::Mesh(context, folder + "/" + name + ".glb"), {}};
+  const Json file = read_json(folder + "/" + name + ".landmarks.json");
+  for (const Json& mark : file.at("landmarks")) {
+    focal_surface_point point{};
+    if (mark.contains("triangle")) {
+      point.triangle = mark["triangle"];
+      for (size_t k = 0; k < 3; ++k) point.barycentric[k] = mark.at("barycentric")[k];
+    } else {
+      focal::check(focal_mesh_point_at_vertex(marked.mesh.get(), mark.at("vertex"), &point));
+    }
+    marked.marks[mark.at("name")] = point;
+  }
+  return marked;
+}
+
+// Looks down on what lies flat.
+double pitch_of(const picture::Figure& figure) {
+  picture::Point low = figure.positions.at(0), high = low;
+  for (const picture::Point& p : figure.positions) {
+    for (size_t k = 0; k < 3; ++k) low[k] = std::min(low[k], p[k]), high[k] = std::max(high[k], p[k]);
+  }
+  return 2 * (high[1] - low[1]) < std::max(high[0] - low[0], high[2] - low[2]) ? 50 : 10;
+}
+
+double apart(const picture::Point& a, const picture::Point& b) {
+  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
+
+// The turn that shows most of the surface around a point, with nothing in front of the point.
+double yaw_towards(picture::Figure figure, const picture::Point& point) {
+  double radius = 0, best = 0, most = -1;
+  for (const picture::Point& p : figure.positions) radius = std::max(radius, apart(p, point) / 5);
+  for (size_t v = 0; v < figure.positions.size(); ++v) {
+    figure.heat[v] = std::exp(-std::pow(apart(figure.positions[v], point) / radius, 2));
+  }
+  figure.marks = {{"point", point}};
+  for (figure.yaw = 0; figure.yaw < 360; figure.yaw += 30) {
+    const picture::Panel panel = picture::fit_into_panel(figure, 1000, 1000);
+    double shown = 0;
+    for (const picture::Patch& patch : panel.patches) {
+      const auto& [a, b, c] = patch.corners;
+      shown += patch.heat * std::fabs((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
+    }
+    if (picture::is_hidden(panel, 0)) shown /= 4;
+    if (shown > 1.02 * most) most = shown, best = figure.yaw;
+  }
+  return best;
+}
+
+void add_surface(const focal::Mesh& mesh, picture::Figure& figure) {
+  const focal_mesh_info info = mesh.info();
+  const float* p = mesh.positions();
+  const uint32_t* t = mesh.triangles();
+  for (uint64_t i = 0; i < 3 * info.vertex_count; i += 3)
+    figure.positions.push_back({p[i], p[i + 1], p[i + 2]});
+  for (uint64_t i = 0; i < 3 * info.triangle_count; i += 3)
+    figure.triangles.push_back({t[i], t[i + 1], t[i + 2]});
+}
+
+}  // namespace
+
+Set load_set(const focal::Context& context, const std::string& folder, size_t train, size_t test) {
+  const Json file = read_json(folder + "/set.json");
+  Set set;
+  set.name = file.value("name", folder);
+  set.landmarks = file.at("landmark_names").get<std::vector<std::string>>();
+  if (file.contains("mirror")) set.mirror = file["mirror"].get<std::map<std::string, std::string>>();
+  for (const Json& name : file.at("train")) {
+    if (set.train.size() < train) set.train.push_back(load_marked(context, folder, name));
+  }
+  for (const Json& name : file.at("test")) {
+    if (set.test.size() < test) set.test.push_back(load_marked(context, folder, name));
+  }
+  if (set.test.empty()) throw std::runtime_error(folder + " has no test mesh");
+  return set;
+}
+
+focal::Model learn(const focal::Context& context, const Set& set, size_t meshes, focal_preset preset) {
+  focal::TrainingSet training(context, set.landmarks);
+  for (size_t i = 0; i < std::min(meshes, set.train.size()); ++i) {
+    std::vector<focal_surface_point> points;
+    for (const std::string& name : set.landmarks) {
+      const auto mark = set.train[i].marks.find(name);
+      points.push_back(mark == set.train[i].marks.end() ? focal_surface_point{FOCAL_NO_TRIANGLE, {1, 0, 0}}
+                                                        : mark->second);
+    }
+    training.add(set.train[i].mesh, points);
+  }
+  auto params = focal::init(focal_train_params_init);
+  focal::check(focal_train_params_set_preset(&params, preset));
+  return focal::Model(training, &params);
+}
+
+picture::Point place_of(const Marked& marked, const std::string& landmark) {
+  float xyz[3];
+  focal::check(focal_mesh_position_of(marked.mesh.get(), &marked.marks.at(landmark), xyz));
+  return {xyz[0], xyz[1], xyz[2]};
+}
+
+focal::Detection detect(const focal::Model& model, const focal::Mesh& mesh, int32_t samples) {
+  auto params = focal::init(focal_detect_params_init);
+  if (samples > 0) {
+    params.sampling_rate = 1;
+    params.max_samples = samples;
+  }
+  return model.detect(mesh, &params);
+}
+
+picture::Figure vote_figure(const focal::Detection& detection, const focal::Mesh& mesh,
+                            const Question& question, const std::string& label) {
+  const std::vector<focal_landmark> landmarks = detection.landmarks();
+  const auto found = std::find_if(landmarks.begin(), landmarks.end(),
+                                  [&](const focal_landmark& l) { return l.name == question.landmark; });
+  if (found == landmarks.end()) throw std::runtime_error("no landmark " + question.landmark);
+  picture::Figure figure;
+  add_surface(mesh, figure);
+  for (const float vote : detection.votes(static_cast<uint32_t>(found - landmarks.begin())))
+    figure.heat.push_back(vote);
+  const picture::Point guess = {found->position[0], found->position[1], found->position[2]};
+  figure.marks = {{"marked", question.truth, true, "#0a7d3c"}, {"found", guess, false, "#2563eb"}};
+  char words[32];
+  std::snprintf(words, sizeof words, ": %.1f", apart(guess, question.truth) / question.edge);
+  figure.caption = label + words;
+  figure.pitch = pitch_of(figure);
+  figure.yaw = yaw_towards(figure, question.truth);
+  return figure;
+}
+
+}  // namespace paper
