@@ -26,6 +26,7 @@ std::vector<std::byte> info_section(const SurfaceAnalysis& analysis) {
   out.i32(analysis.params.proxy_vertices);
   out.i32(analysis.params.eigenpair_count);
   out.u8(analysis.params.to_the_letter);
+  out.i32(analysis.proxy.filled_holes);
   return out.take();
 }
 
@@ -117,8 +118,10 @@ SurfaceAnalysis parse_analysis(std::span<const std::byte> file, std::shared_ptr<
   analysis.params.proxy_vertices = info.i32("proxy vertices", 0, most);
   analysis.params.eigenpair_count = info.i32("eigenpair count", 1, most);
   analysis.params.to_the_letter = info.u8("to the letter") != 0;
+  const int32_t filled_holes = info.i32("filled holes", 0, most);
   info.expect_end();
   analysis.proxy = read_proxy(archive.section("PRXY"), std::move(mesh));
+  analysis.proxy.filled_holes = filled_holes;
   make_solvers(analysis, execution);
   analysis.eigenfunctions = read_eigenfunctions(archive.section("EIGN"), analysis.surface().vertex_count());
   read_samples(archive.section("SMPL"), analysis);

@@ -2,19 +2,22 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 
 namespace focal {
 namespace {
 
 constexpr int32_t features = Calibration::feature_count;
 
+using Features = std::array<float, features>;
+
 double logistic(double x) { return 1 / (1 + std::exp(-x)); }
 
 // Ridge-regularised logistic regression by Newton's method. Each judged placement also counts as weakly wrong and weakly
 // right (Platt 1999), so that a perfect training set does not lead to certainty.
-void fit_logistic(const std::vector<std::array<float, features>>& x, const std::vector<double>& target,
-                  float* weight) {
+void fit_logistic(const std::vector<Features>& x, const std::vector<double>& target, float* weight) {
   constexpr double ridge = 1.0;
   Vector w = Vector::Zero(features + 1);
   for (int step = 0; step < 50; ++step) {
@@ -36,90 +39,150 @@ void fit_logistic(const std::vector<std::array<float, features>>& x, const std::
   for (int f = 0; f <= features; ++f) weight[f] = static_cast<float>(w[f]);
 }
 
-double evidence_sum(const Calibration& calibration, int32_t landmark, const Evidence& evidence) {
-  const auto x = confidence_features(evidence, calibration.typical_vote[landmark]);
-  double sum = calibration.weight[features];
-  for (int f = 0; f < features; ++f) sum += calibration.weight[f] * x[f];
-  return sum;
+float log_level(const Calibration& calibration, int32_t landmark, const Evidence& evidence) {
+  const float typical = calibration.typical_vote[landmark];
+  return typical > 0 ? std::log(std::clamp(evidence.vote_level / typical, 1e-3f, 1e3f)) : 0;
 }
 
 // The evidence for the mesh as a whole: the mean over its landmarks of how far they fit, each within bounds so that one
-// lost landmark does not decide.
-double mesh_evidence(const Calibration& calibration, const std::vector<Evidence>& evidence) {
+// lost landmark does not decide, and how alike the maps find it.
+double mesh_evidence(const Calibration& calibration, const std::vector<int32_t>& landmark,
+                     const std::vector<Evidence>& evidence, float map_residual) {
+  constexpr double residual_weight = 20;  // of a tenth more: two units, as much as a clear drop of all votes
   double sum = 0;
-  for (size_t l = 0; l < evidence.size(); ++l) {
-    const auto x = confidence_features(evidence[l], calibration.typical_vote[l]);
-    sum += std::clamp<double>(x[2] - x[1], -6, 6);
+  for (size_t i = 0; i < evidence.size(); ++i)
+    sum += std::clamp(log_level(calibration, landmark[i], evidence[i]) - evidence[i].residual, -6.0f, 6.0f);
+  sum /= static_cast<double>(std::max<size_t>(evidence.size(), 1));
+  if (calibration.typical_residual > 0 && map_residual > 0)
+    sum -= residual_weight * std::log(map_residual / calibration.typical_residual);
+  return sum;
+}
+
+double fit_odds(const Calibration& calibration, double mesh) {
+  return calibration.fit_scale * (mesh - calibration.fit_centre);
+}
+
+Features features_of(const Calibration& calibration, int32_t landmark, const Evidence& e, double odds) {
+  const auto length = [](float x) { return std::log(std::clamp(x, 0.0f, 0.3f) + 0.005f); };
+  return {e.vote_ratio,
+          e.residual,
+          log_level(calibration, landmark, e),
+          std::clamp(e.rival, 0.0f, 2.0f),
+          length(e.spread),
+          length(e.gap),
+          std::exp(-std::clamp(e.border, 0.0f, 1.0f) / 0.05f),
+          static_cast<float>(std::clamp(odds, -6.0, 3.0))};
+}
+
+double weighted(const float* weight, const Features& x) {
+  double sum = weight[features];
+  for (int f = 0; f < features; ++f) sum += weight[f] * x[f];
+  return sum;
+}
+
+// The placements of one mesh: [begin, end) of the list.
+struct MeshRange {
+  size_t begin, end;
+};
+std::vector<MeshRange> meshes_of(const std::vector<JudgedPlacement>& judged) {
+  std::vector<MeshRange> result;
+  for (size_t i = 0; i < judged.size(); ++i) {
+    if (i == 0 || judged[i].mesh != judged[i - 1].mesh) result.push_back({i, i});
+    result.back().end = i + 1;
   }
-  return sum / static_cast<double>(std::max<size_t>(evidence.size(), 1));
+  return result;
 }
 
-}  // namespace
-
-std::array<float, features> confidence_features(const Evidence& evidence, float typical_vote) {
-  const float level = typical_vote > 0 ? evidence.vote_level / typical_vote : 1;
-  return {evidence.vote_ratio, evidence.residual, std::log(std::clamp(level, 1e-3f, 1e3f)),
-          std::clamp(evidence.rival, 0.0f, 2.0f)};
+double evidence_of_mesh(const Calibration& calibration, const std::vector<JudgedPlacement>& judged,
+                        const MeshRange& mesh) {
+  std::vector<int32_t> landmark;
+  std::vector<Evidence> evidence;
+  for (size_t i = mesh.begin; i < mesh.end; ++i)
+    landmark.push_back(judged[i].landmark), evidence.push_back(judged[i].evidence);
+  return mesh_evidence(calibration, landmark, evidence, judged[mesh.begin].map_residual);
 }
 
-Calibration calibrate(const std::vector<JudgedPlacement>& judged, int32_t landmarks) {
-  Calibration result;
-  result.typical_vote.assign(landmarks, 0);
-  std::vector<int32_t> count(landmarks, 0);
-  double error[2] = {}, number[2] = {};
+// Typical votes, errors and residual.
+void learn_typical(const std::vector<JudgedPlacement>& judged, Calibration& result) {
+  std::vector<int32_t> count(result.typical_vote.size(), 0);
+  double error[2] = {}, number[2] = {}, residual = 0;
   for (const auto& j : judged) {
+    residual += j.map_residual / static_cast<double>(judged.size());
+    if (!j.is_marked) continue;
     const bool near = j.error < near_radius;
     error[near] += j.error, ++number[near];
     if (near) result.typical_vote[j.landmark] += j.evidence.vote_level, ++count[j.landmark];
   }
-  for (int32_t l = 0; l < landmarks; ++l)
+  for (size_t l = 0; l < count.size(); ++l)
     if (count[l]) result.typical_vote[l] /= static_cast<float>(count[l]);
   if (number[1] > 0) result.near_error = static_cast<float>(error[1] / number[1]);
   if (number[0] > 0) result.far_error = static_cast<float>(error[0] / number[0]);
-  std::vector<std::array<float, features>> x;
-  std::vector<double> target;
-  const double right = (number[1] + 1) / (number[1] + 2), wrong = 1 / (number[0] + 2);
-  for (const auto& j : judged) {
-    x.push_back(confidence_features(j.evidence, result.typical_vote[j.landmark]));
-    target.push_back(j.error < near_radius ? right : wrong);
-  }
-  if (!x.empty()) fit_logistic(x, target, result.weight);
+  result.typical_residual = static_cast<float>(residual);
+}
 
-  // Category fit: 0.9 at the mean of the training meshes' evidence, 0.5 three deviations below.
-  std::vector<double> meshes;
-  for (size_t i = 0; i < judged.size();) {
-    std::vector<Evidence> evidence(landmarks);
-    Calibration own = result;
-    size_t k = i;
-    std::vector<Evidence> present;
-    std::vector<float> typical;
-    for (; k < judged.size() && judged[k].shape == judged[i].shape; ++k) {
-      present.push_back(judged[k].evidence);
-      typical.push_back(result.typical_vote[judged[k].landmark]);
-    }
-    own.typical_vote = typical;
-    meshes.push_back(mesh_evidence(own, present));
-    i = k;
-  }
+// Category fit: 0.9 at the mean of the training meshes' evidence, 0.5 three deviations below.
+void learn_fit(const std::vector<JudgedPlacement>& judged, const std::vector<MeshRange>& meshes,
+               Calibration& result) {
   double mean = 0, square = 0;
-  for (const double m : meshes) mean += m / static_cast<double>(meshes.size());
-  for (const double m : meshes) square += (m - mean) * (m - mean) / static_cast<double>(meshes.size());
+  std::vector<double> values;
+  for (const auto& mesh : meshes) values.push_back(evidence_of_mesh(result, judged, mesh));
+  for (const double m : values) mean += m / static_cast<double>(values.size());
+  for (const double m : values) square += (m - mean) * (m - mean) / static_cast<double>(values.size());
   const double spread = std::max(std::sqrt(square), 0.1);
   result.fit_centre = static_cast<float>(mean - 3 * spread);
   result.fit_scale = static_cast<float>(std::log(9.0) / (3 * spread));
+}
+
+// Probabilities that weakly count each example as its opposite (Platt 1999).
+std::vector<double> softened(const std::vector<char>& is_true) {
+  const auto yes = static_cast<double>(std::count(is_true.begin(), is_true.end(), 1));
+  const double no = static_cast<double>(is_true.size()) - yes;
+  std::vector<double> result;
+  for (const char truth : is_true) result.push_back(truth ? (yes + 1) / (yes + 2) : 1 / (no + 2));
   return result;
 }
 
-double confidence_of(const Calibration& calibration, int32_t landmark, const Evidence& evidence) {
-  return logistic(evidence_sum(calibration, landmark, evidence));
+}  // namespace
+
+Calibration calibrate(const std::vector<JudgedPlacement>& judged, int32_t landmarks) {
+  Calibration result;
+  result.typical_vote.assign(landmarks, 0);
+  if (judged.empty()) return result;
+  learn_typical(judged, result);
+  const auto meshes = meshes_of(judged);
+  learn_fit(judged, meshes, result);
+  std::vector<Features> x;
+  std::vector<char> is_right, is_absent;
+  for (const auto& mesh : meshes) {
+    const double odds = fit_odds(result, evidence_of_mesh(result, judged, mesh));
+    for (size_t i = mesh.begin; i < mesh.end; ++i) {
+      x.push_back(features_of(result, judged[i].landmark, judged[i].evidence, odds));
+      is_right.push_back(judged[i].is_marked && judged[i].error < near_radius);
+      is_absent.push_back(!judged[i].is_marked);
+    }
+  }
+  fit_logistic(x, softened(is_right), result.weight);
+  fit_logistic(x, softened(is_absent), result.absent_weight);
+  return result;
+}
+
+Judgement judge(const Calibration& calibration, const std::vector<Evidence>& evidence, float map_residual) {
+  std::vector<int32_t> all(evidence.size());
+  std::iota(all.begin(), all.end(), 0);
+  const double odds = fit_odds(calibration, mesh_evidence(calibration, all, evidence, map_residual));
+  // Training shapes are all of the category: what a foreign one looks like was never seen, so it only shuts the gate.
+  const double gate = logistic(odds + 2.2);  // 0.9 where the fit is a half, 0.5 where it is a tenth
+  Judgement result{logistic(odds), {}, {}};
+  for (const int32_t l : all) {
+    const Features x = features_of(calibration, l, evidence[l], odds);
+    result.confidence.push_back(gate * logistic(weighted(calibration.weight, x)));
+    result.absent.push_back(logistic(weighted(calibration.absent_weight, x)));
+  }
+  return result;
 }
 
 double expected_error_of(const Calibration& calibration, double confidence) {
   return confidence * calibration.near_error + (1 - confidence) * calibration.far_error;
-}
-
-double category_fit_of(const Calibration& calibration, const std::vector<Evidence>& evidence) {
-  return logistic(calibration.fit_scale * (mesh_evidence(calibration, evidence) - calibration.fit_centre));
 }
 
 }  // namespace focal

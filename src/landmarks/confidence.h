@@ -1,7 +1,6 @@
 // How sure a placed landmark is: logistic regression on the evidence for it, learned on training shapes that were left
 // out of the forest that judged them.
 #pragma once
-#include <array>
 #include <vector>
 
 #include "landmarks/model_parts.h"
@@ -12,20 +11,25 @@ namespace focal {
 inline constexpr double near_radius =
     0.04;  // of sqrt(area): "within" of the confidence's meaning; two to four edges
 
-std::array<float, Calibration::feature_count> confidence_features(const Evidence& evidence,
-                                                                  float typical_vote);
-
 // One judged placement: of a landmark, with its evidence and its distance from the truth in sqrt(area).
 struct JudgedPlacement {
-  int32_t landmark = 0, shape = 0;
+  int32_t landmark = 0, mesh = 0;
   Evidence evidence;
   double error = 0;
+  bool is_marked = true;   // false: the landmark is not on this mesh, so no place is right
+  float map_residual = 0;  // of the mesh, see Placement
 };
+// Placements of one mesh stand together.
 Calibration calibrate(const std::vector<JudgedPlacement>& judged, int32_t landmarks);
 
-double confidence_of(const Calibration& calibration, int32_t landmark, const Evidence& evidence);
+// What is believed of a whole mesh, from the evidence of all its landmarks and the residual of the maps to it.
+struct Judgement {
+  double category_fit = 1;         // 0..1: does this mesh belong to the category at all?
+  std::vector<double> confidence;  // per landmark: that it lies within near_radius of where it should
+  std::vector<double> absent;      // per landmark: that it is not on this mesh
+};
+Judgement judge(const Calibration& calibration, const std::vector<Evidence>& evidence, float map_residual);
+
 double expected_error_of(const Calibration& calibration, double confidence);  // of sqrt(area)
-// Does this mesh belong to the category at all? 0..1, from the evidence of all its landmarks.
-double category_fit_of(const Calibration& calibration, const std::vector<Evidence>& evidence);
 
 }  // namespace focal

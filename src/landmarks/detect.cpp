@@ -24,21 +24,22 @@ DetectedPoint point_at(const PreparedMesh& mesh, const SurfacePoint& surface_poi
   return point;
 }
 
-LandmarkStatus status_of(double confidence, const DetectParams& params) {
+LandmarkStatus status_of(double confidence, double absent, const DetectParams& params) {
+  if (absent > 0.5) return LandmarkStatus::absent;
   if (confidence >= params.found_confidence) return LandmarkStatus::found;
   return confidence >= params.absent_confidence ? LandmarkStatus::uncertain : LandmarkStatus::absent;
 }
 
 // place, rival: on the full surface.
 DetectedLandmark landmark_at(const LandmarkModel& model, const Proxy& proxy, const Placement& placement,
-                             int32_t l, const SurfacePoint& place, const SurfacePoint& rival_place,
-                             const DetectParams& params) {
+                             const Judgement& judgement, int32_t l, const SurfacePoint& place,
+                             const SurfacePoint& rival_place, const DetectParams& params) {
   DetectedLandmark landmark;
   if (placement.vertex[l] < 0) return landmark;             // no vote at all: absent
   const bool paper = model.params.preset == Preset::paper;  // the paper gives no confidence: its vote stands
-  const double confidence = paper ? 1 : confidence_of(model.calibration, l, placement.evidence[l]);
+  const double confidence = paper ? 1 : judgement.confidence[l];
   static_cast<DetectedPoint&>(landmark) = point_at(*proxy.full, place, confidence);
-  landmark.status = status_of(confidence, params);
+  landmark.status = status_of(confidence, paper ? 0 : judgement.absent[l], params);
   landmark.expected_error = proxy.scale() * expected_error_of(model.calibration, confidence);
   if (placement.rival[l] >= 0) {
     const float rival = placement.evidence[l].rival;  // shares what the winner leaves, by its votes
@@ -49,8 +50,8 @@ DetectedLandmark landmark_at(const LandmarkModel& model, const Proxy& proxy, con
 }
 
 std::vector<DetectedLandmark> landmarks_at(const LandmarkModel& model, const SurfaceAnalysis& analysis,
-                                           const Placement& placement, const DetectParams& params,
-                                           const Execution& execution) {
+                                           const Placement& placement, const Judgement& judgement,
+                                           const DetectParams& params, const Execution& execution) {
   const auto L = placement.vertex.size();
   std::vector<int32_t> rivals;
   for (const int32_t rival : placement.rival) rivals.push_back(std::max(rival, 0));
@@ -62,8 +63,8 @@ std::vector<DetectedLandmark> landmarks_at(const LandmarkModel& model, const Sur
   const auto full = to_full(analysis.proxy, places, execution);
   std::vector<DetectedLandmark> result;
   for (size_t l = 0; l < L; ++l)
-    result.push_back(
-        landmark_at(model, analysis.proxy, placement, static_cast<int32_t>(l), full[l], full[L + l], params));
+    result.push_back(landmark_at(model, analysis.proxy, placement, judgement, static_cast<int32_t>(l),
+                                 full[l], full[L + l], params));
   return result;
 }
 
@@ -119,9 +120,11 @@ Detection detect(std::shared_ptr<const LandmarkModel> model, const SurfaceAnalys
             : place_landmarks(*model, analysis, params.max_samples, params, execution, result.seconds);
   execution.begin_stage("landmarks", 0.9, 1);
   Stopwatch mapping;
-  result.landmarks = landmarks_at(*model, analysis, placement, params, execution);
+  const Judgement judgement =
+      paper ? Judgement{} : judge(model->calibration, placement.evidence, placement.map_residual);
+  result.landmarks = landmarks_at(*model, analysis, placement, judgement, params, execution);
   result.seconds.refine += mapping.lap();
-  result.category_fit = paper ? 1 : category_fit_of(model->calibration, placement.evidence);
+  result.category_fit = judgement.category_fit;
   if (analysis.heat.time_was_raised())
     result.warnings.push_back("the mesh is so fine that the time step of the heat method was raised");
   if (const int32_t holes = analysis.proxy.filled_holes)

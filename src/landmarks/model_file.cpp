@@ -208,6 +208,8 @@ void write_calibration(const LandmarkModel& model, ByteWriter& out) {
   out.f32s(calibration.typical_vote);
   out.u32(Calibration::feature_count);
   out.f32s(calibration.weight);
+  out.f32s(calibration.absent_weight);
+  out.f32(calibration.typical_residual);
   out.f32(calibration.near_error);
   out.f32(calibration.far_error);
   out.f32(calibration.fit_centre);
@@ -223,6 +225,8 @@ void read_calibration(ByteReader in, LandmarkModel& model) {
   calibration.typical_vote = in.f32s("typical vote", static_cast<size_t>(L), 0, any_number);
   in.count("feature count", 32, Calibration::feature_count, Calibration::feature_count);
   for (float& weight : calibration.weight) weight = in.f32("weight", -any_number, any_number);
+  for (float& weight : calibration.absent_weight) weight = in.f32("weight", -any_number, any_number);
+  calibration.typical_residual = in.f32("typical residual", 0, any_number);
   calibration.near_error = in.f32("near error", 0, longest);
   calibration.far_error = in.f32("far error", 0, longest);
   calibration.fit_centre = in.f32("fit centre", -any_number, any_number);

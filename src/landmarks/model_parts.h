@@ -16,11 +16,13 @@ inline constexpr uint16_t target_steps = 65534;    // target / target_steps * re
 
 // Turns how well a landmark fits into a probability; learned on shapes left out of the forest that judged them.
 struct Calibration {
-  static constexpr int32_t feature_count = 4;  // see landmarks/confidence.h
+  static constexpr int32_t feature_count = 8;  // see landmarks/confidence.h
   std::vector<float> typical_vote;       // per landmark: vote a sample at the true place, 0 when unknown
-  float weight[feature_count + 1] = {};  // logistic regression; the last is the bias
-  float near_error = 0.02f, far_error = 0.5f;  // mean error when right and when wrong, of sqrt(area)
-  float fit_centre = 0, fit_scale = 1;         // category fit: logistic of a mesh's mean evidence
+  float weight[feature_count + 1] = {};  // logistic regression: it lies where it should; the last is the bias
+  float absent_weight[feature_count + 1] = {};  // likewise: it is not on this mesh at all
+  float typical_residual = 0;                   // of the maps from the training shapes; 0: no maps
+  float near_error = 0.02f, far_error = 0.5f;   // mean error when right and when wrong, of sqrt(area)
+  float fit_centre = 0, fit_scale = 1;          // category fit: logistic of a mesh's mean evidence
 };
 
 // One training shape as functional maps need it; see landmarks/atlas.h.

@@ -1,11 +1,14 @@
 #include "landmarks/placement.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/stopwatch.h"
 #include "landmarks/consensus.h"
 #include "landmarks/leaf_votes.h"
 #include "landmarks/refine.h"
+#include "mesh/fill_holes.h"
+#include "mesh/nearest_vertex.h"
 #include "vote/peaks.h"
 #include "vote/vote.h"
 
@@ -85,6 +88,28 @@ void record_evidence(const std::vector<std::vector<int32_t>>& peaks,
   }
 }
 
+// How near each place is to a stump: a border that was closed and is longer than that of a small hole.
+void record_borders(const SurfaceAnalysis& analysis, Placement& placement) {
+  constexpr double long_border = 0.15;  // of sqrt(area)
+  if (analysis.proxy.filled_holes == 0) return;
+  const TriangleMesh& full = analysis.proxy.full->surface;
+  const PreparedMesh& coarse = *analysis.proxy.coarse;
+  std::vector<int32_t> border;
+  for (const auto& loop : border_loops(full)) {
+    double length = 0;
+    for (size_t i = 0; i < loop.size(); ++i)
+      length += (full.positions.row(loop[i]) - full.positions.row(loop[(i + 1) % loop.size()])).norm();
+    if (length > long_border) border.insert(border.end(), loop.begin(), loop.end());
+  }
+  if (border.empty()) return;
+  const NearestVertex search(full.positions, std::move(border));
+  for (size_t l = 0; l < placement.vertex.size(); ++l) {
+    if (placement.vertex[l] < 0) continue;
+    const Vector3 place = coarse.centre + coarse.scale * position_of(coarse.surface, placement.point[l]);
+    placement.evidence[l].border = static_cast<float>(std::sqrt(search.nearest(place).second) / coarse.scale);
+  }
+}
+
 }  // namespace
 
 Placement place_landmarks(const LandmarkModel& model, const SurfaceAnalysis& analysis, int32_t sample_limit,
@@ -103,17 +128,19 @@ Placement place_landmarks(const LandmarkModel& model, const SurfaceAnalysis& ana
   std::vector<int32_t> vertices;
   const ConstellationCandidates candidates =
       make_candidates(peaks, result.votes, analysis, vertices, execution);
-  const bool by_maps = !model.atlas.empty() && params.quality == Quality::best;
+  const auto atlas = asked_shapes(model, params.quality);
+  const bool by_maps = !atlas.empty();
   const auto choices = distinct_constellations(model.constellation, candidates, ConstellationParams{},
                                                by_maps ? distinct_choices : 1, execution);
   const SpectralTargets targets = by_maps ? spectral_targets(analysis) : SpectralTargets{};
   const ConstellationChoice& choice =
-      choices[choices.size() > 1 ? most_alike(model, analysis, targets, choices, vertices, execution) : 0];
+      choices[by_maps ? most_alike(model, atlas, analysis, targets, choices, vertices, execution) : 0];
   result.energy = choice.energy;
   record_evidence(peaks, candidates, choice, samples, vertices, result);
   seconds.constellation += watch.lap();
   refine_placement(model.constellation, analysis, result, execution);
-  if (by_maps) join_carried_marks(model, analysis, targets, result, execution);
+  if (by_maps) join_carried_marks(model, atlas, params.quality, analysis, targets, result, execution);
+  record_borders(analysis, result);
   seconds.refine += watch.lap();
   return result;
 }

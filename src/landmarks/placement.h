@@ -14,8 +14,9 @@ struct Evidence {
   float residual = 0;    // see ConstellationChoice
   float vote_level = 0;  // vote a sample at the place
   float rival = 0;       // best vote of its other peaks / vote at the place
-  float spread = 0;      // of the marks carried over from the training shapes, of sqrt(area); 0 without maps
-  float gap = 0;         // between the votes' place and where they agree, likewise
+  float border = 1;  // distance from the nearest long border that was closed, of sqrt(area); 1: far or none
+  float spread = 0;  // of the marks carried over from the training shapes, of sqrt(area); 0 without maps
+  float gap = 0;     // between the votes' place and where they agree, likewise
 };
 
 struct Placement {

@@ -12,6 +12,7 @@
 #include "landmarks/paper.h"
 #include "landmarks/placement.h"
 #include "landmarks/surface_analysis.h"
+#include "mesh/damage.h"
 
 namespace focal {
 namespace {
@@ -137,7 +138,60 @@ void learn_parts(LandmarkModel& model, const std::vector<const SurfaceAnalysis*>
   model.forests.assign(1, grow_forest(bin_descriptors(descriptors, execution), targets, forest, execution));
 }
 
-// Places the landmarks of every shape by a model that has not seen it, and learns from the outcome how far to trust.
+// The placements of one shape by a model that has not seen it, each with its error. id: another one for each mesh.
+void judge_shape(const LandmarkModel& model, const MarkedShape& shape, const SurfaceAnalysis& analysis,
+                 int32_t id, std::vector<JudgedPlacement>& judged, const Execution& execution) {
+  const DetectParams detect;
+  StageSeconds ignored;
+  const auto limit =
+      static_cast<int32_t>(sampling_rate_of(detect, model.params) * analysis.surface().vertex_count());
+  const Placement placement = place_landmarks(model, analysis, std::clamp(limit, 100, detect.max_samples),
+                                              detect, execution, ignored);
+  for (size_t l = 0; l < shape.marks.size(); ++l) {
+    if (placement.vertex[l] < 0) continue;
+    JudgedPlacement one{static_cast<int32_t>(l), id, placement.evidence[l], 1, shape.marks[l].has_value(),
+                        placement.map_residual};
+    if (shape.marks[l]) {
+      const SurfacePoint truth = to_coarse(analysis.proxy, std::span(&*shape.marks[l], 1))[0];
+      one.error =
+          (position_of(analysis.surface(), placement.point[l]) - position_of(analysis.surface(), truth))
+              .norm();
+    }
+    judged.push_back(one);
+  }
+}
+
+// The same shape as a scanner spoils it, or with a part missing: what such meshes look like has to be learned too.
+std::optional<MarkedShape> spoiled(const MarkedShape& shape, bool cut, Random random) {
+  DamagedMesh damaged = undamaged(shape.mesh->surface, shape.marks);
+  if (cut) {
+    std::vector<SurfacePoint> marks;
+    for (const auto& mark : shape.marks)
+      if (mark) marks.push_back(*mark);
+    const SurfacePoint& centre = marks[random.below(static_cast<uint32_t>(marks.size()))];
+    damaged = cut_ball(std::move(damaged), centre, 0.15 + 0.25 * random.uniform(), CutEnd::open);
+  } else {
+    damaged = with_holes(with_noise(std::move(damaged), 0.3 * random.uniform(), random), 20, 2, random);
+  }
+  if (damaged.mesh.triangle_count() < shape.mesh->surface.triangle_count() / 3) return std::nullopt;
+  MarkedShape result{std::make_shared<PreparedMesh>(prepare(std::move(damaged.mesh))), {}};
+  for (const auto& mark : damaged.marks) {
+    result.marks.emplace_back();
+    if (!mark) continue;
+    if (const SurfacePoint point = to_surface(*result.mesh, *mark); point.triangle >= 0)
+      result.marks.back() = point;
+  }
+  return result;
+}
+
+// As they are met in detection.
+SurfaceAnalysis analyse_to_judge(const MarkedShape& shape, const TrainParams& params,
+                                 const Execution& execution) {
+  return analyse_for(params, shape.mesh, DetectParams{}, execution);
+}
+
+// Places the landmarks of every shape, whole and spoiled, by a model that has not seen it, and learns from the outcome
+// how far to trust.
 Calibration cross_fit(const LandmarkModel& model, const TrainingSet& set,
                       const std::vector<SurfaceAnalysis>& analyses, const std::vector<LearnedShape>& learned,
                       const Execution& execution) {
@@ -147,7 +201,7 @@ Calibration cross_fit(const LandmarkModel& model, const TrainingSet& set,
   Random random(model.params.seed, 77);
   const auto order = sample_without_replacement(random, count, count);
   for (int32_t fold = 0; fold < used_folds; ++fold) {
-    execution.begin_stage("confidence", 0.7 + 0.3 * fold / used_folds, 0.7 + 0.3 * (fold + 1) / used_folds);
+    execution.begin_stage("confidence", 0.5 + 0.5 * fold / used_folds, 0.5 + 0.5 * (fold + 1) / used_folds);
     LandmarkModel part;
     part.landmark_names = model.landmark_names;
     part.params = model.params;
@@ -158,21 +212,14 @@ Calibration cross_fit(const LandmarkModel& model, const TrainingSet& set,
     learn_parts(part, kept, lessons, execution);
     for (int32_t i = fold; i < count; i += used_folds) {
       const MarkedShape& shape = set.shapes[order[i]];
-      const DetectParams detect;
-      StageSeconds ignored;
-      const SurfaceAnalysis& analysis = analyses[order[i]];
-      const auto limit =
-          static_cast<int32_t>(sampling_rate_of(detect, model.params) * analysis.surface().vertex_count());
-      const Placement placement = place_landmarks(part, analysis, std::clamp(limit, 100, detect.max_samples),
-                                                  detect, execution, ignored);
-      for (size_t l = 0; l < shape.marks.size(); ++l) {
-        if (!shape.marks[l] || placement.vertex[l] < 0) continue;
-        const SurfacePoint truth = to_coarse(analysis.proxy, std::span(&*shape.marks[l], 1))[0];
-        judged.push_back(
-            {static_cast<int32_t>(l), order[i], placement.evidence[l],
-             (position_of(analysis.surface(), placement.point[l]) - position_of(analysis.surface(), truth))
-                 .norm()});
+      judge_shape(part, shape, analyses[order[i]], 3 * order[i], judged, execution);
+      for (int32_t kind = 1; kind <= 2; ++kind) {
+        const auto bad = spoiled(shape, kind == 2, Random(model.params.seed, 5000 + 3 * order[i] + kind));
+        if (!bad) continue;
+        judge_shape(part, *bad, analyse_to_judge(*bad, model.params, execution), 3 * order[i] + kind, judged,
+                    execution);
       }
+      execution.report(static_cast<double>(i + 1) / count);
     }
   }
   return calibrate(judged, static_cast<int32_t>(model.landmark_names.size()));
@@ -181,7 +228,7 @@ Calibration cross_fit(const LandmarkModel& model, const TrainingSet& set,
 std::vector<SurfaceAnalysis> analyse_all(const TrainingSet& set, const TrainParams& params,
                                          const Execution& execution) {
   std::vector<SurfaceAnalysis> analyses(set.shapes.size());
-  execution.begin_stage("analysis", 0, 0.4);
+  execution.begin_stage("analysis", 0, 0.2);
   std::atomic<int32_t> done{0};
   parallel_for(execution, static_cast<int64_t>(set.shapes.size()), [&](int64_t s) {
     AnalysisParams how = analysis_params_of(params);
@@ -217,11 +264,11 @@ LandmarkModel train(const TrainingSet& set, const TrainParams& params, const Exe
     train_paper_forests(model, set, analyses, execution);
     return model;
   }
-  execution.begin_stage("distances", 0.4, 0.45);
+  execution.begin_stage("distances", 0.2, 0.25);
   std::vector<LearnedShape> learned;
   for (size_t s = 0; s < set.shapes.size(); ++s)
     learned.push_back(learn_shape(set.shapes[s], analyses[s], execution));
-  execution.begin_stage("forest", 0.45, 0.7);
+  execution.begin_stage("forest", 0.25, 0.5);
   learn_parts(model, pointers(analyses), pointers(learned), execution);
   model.calibration = cross_fit(model, set, analyses, learned, execution);
   return model;

@@ -32,7 +32,6 @@ Proxy make_proxy(std::shared_ptr<const PreparedMesh> mesh, int32_t vertices, con
               prepare(is_small ? surface : decimate(surface, vertices, execution))),
           filled.holes};
 }
-}
 
 std::vector<SurfacePoint> to_coarse(const Proxy& proxy, std::span<const SurfacePoint> full_points) {
   std::vector<SurfacePoint> result(full_points.begin(), full_points.end());

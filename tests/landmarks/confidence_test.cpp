@@ -46,7 +46,8 @@ TEST_CASE("confidence is the probability of being right, on placements not learn
   const Calibration calibration = learned(400);
   double worst = 0;
   for (const Draw& draw : draw_placements(400, 2)) {
-    const double confidence = confidence_of(calibration, draw.judged.landmark, draw.judged.evidence);
+    std::vector<Evidence> mesh(landmarks, draw.judged.evidence);
+    const double confidence = judge(calibration, mesh, 0).confidence[draw.judged.landmark];
     worst = std::max(worst, std::abs(confidence - draw.probability));
   }
   CHECK(worst < 0.12);
@@ -58,7 +59,8 @@ TEST_CASE("a perfect record does not lead to certainty") {
     for (int32_t l = 0; l < landmarks; ++l)
       judged.push_back({l, s, {.vote_ratio = 1, .residual = 0.1f, .vote_level = 2, .rival = 0.3f}, 0.01});
   const Calibration calibration = calibrate(judged, landmarks);
-  const double good = confidence_of(calibration, 0, judged[0].evidence);
+  const double good =
+      judge(calibration, std::vector<Evidence>(landmarks, judged[0].evidence), 0).confidence[0];
   CHECK(good > 0.9);
   CHECK(good < 0.999);
 }
@@ -74,6 +76,47 @@ TEST_CASE("a mesh with the evidence of the training meshes fits, one without doe
   const Calibration calibration = learned(50);
   const Evidence usual{.vote_ratio = 0.8f, .residual = 0.8f, .vote_level = 3, .rival = 0.5f};
   const Evidence foreign{.vote_ratio = 0.8f, .residual = 6, .vote_level = 0.05f, .rival = 1.5f};
-  CHECK(category_fit_of(calibration, std::vector<Evidence>(landmarks, usual)) > 0.8);
-  CHECK(category_fit_of(calibration, std::vector<Evidence>(landmarks, foreign)) < 0.2);
+  CHECK(judge(calibration, std::vector<Evidence>(landmarks, usual), 0).category_fit > 0.8);
+  CHECK(judge(calibration, std::vector<Evidence>(landmarks, foreign), 0).category_fit < 0.2);
+}
+
+TEST_CASE("landmarks that were not there are told by what they had in common, and are never sure") {
+  std::vector<JudgedPlacement> judged;
+  for (int32_t s = 0; s < 40; ++s)
+    for (int32_t l = 0; l < landmarks; ++l) {
+      const bool gone = l == s % landmarks && s % 2 == 0;
+      const float sway = 0.1f * static_cast<float>((s * 7 + l) % 5);
+      judged.push_back({l,
+                        s,
+                        {.vote_ratio = 1,
+                         .residual = (gone ? 2 : 0.2f) + sway,
+                         .vote_level = 2,
+                         .border = gone ? 0.01f : 1},
+                        0.01,
+                        !gone});
+    }
+  const Calibration calibration = calibrate(judged, landmarks);
+  std::vector<Evidence> mesh(landmarks, {.vote_ratio = 1, .residual = 0.3f, .vote_level = 2});
+  mesh[2] = {.vote_ratio = 1, .residual = 2.2f, .vote_level = 2, .border = 0.01f};
+  const Judgement judgement = judge(calibration, mesh, 0);
+  CHECK(judgement.absent[2] > 0.5);
+  CHECK(judgement.confidence[2] < 0.5);
+  CHECK(judgement.absent[1] < 0.1);
+  CHECK(judgement.confidence[1] > 0.8);
+}
+
+TEST_CASE("a mesh that the training shapes cannot be mapped to does not fit") {
+  std::vector<JudgedPlacement> judged;
+  for (int32_t s = 0; s < 10; ++s)
+    for (int32_t l = 0; l < landmarks; ++l)
+      judged.push_back({l,
+                        s,
+                        {.vote_ratio = 1, .residual = 0.2f, .vote_level = 2},
+                        0.01,
+                        true,
+                        0.3f + 0.002f * static_cast<float>(s)});
+  const Calibration calibration = calibrate(judged, landmarks);
+  const std::vector<Evidence> mesh(landmarks, judged[0].evidence);
+  CHECK(judge(calibration, mesh, 0.31f).category_fit > 0.8);
+  CHECK(judge(calibration, mesh, 0.5f).category_fit < 0.1);
 }
