@@ -81,6 +81,8 @@ std::string draw(const Panel& panel) {
   svg += text("<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">vertices</text>\n",
               panel.x + panel_width / 2, top + panel_height + 36);
   for (const Curve& curve : panel.curves) {
+    // Above the end of the upper curve, well below that of the lower one: between them a label would be crossed.
+    const double beside = &curve == &panel.curves.front() ? -8 : 76;
     std::string line, dots;
     for (size_t i = 0; i < curve.values.size(); ++i) {
       const double x = across.at(panel.vertices[i]), y = up.at(curve.values[i]);
@@ -89,9 +91,9 @@ std::string draw(const Panel& panel) {
     }
     svg += text("<path fill=\"none\" stroke-width=\"2\" stroke=\"%s\" d=\"", curve.colour) + line + "\"/>" +
            dots;
-    svg +=
-        text("<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"end\" style=\"fill:%s\">%s</text>\n",
-             across.at(panel.vertices.back()) - 6, up.at(curve.values.back()) - 8, curve.colour, curve.name);
+    svg += text("<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"end\" style=\"fill:%s\">%s</text>\n",
+                across.at(panel.vertices.back()) - 6, up.at(curve.values.back()) + beside, curve.colour,
+                curve.name);
   }
   return svg;
 }
