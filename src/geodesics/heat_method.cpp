@@ -9,12 +9,9 @@
 #include "base/aligned_array.h"
 #include "base/error.h"
 #include "base/multiversion.h"
-#include "linear/nested_dissection.h"
 
 namespace focal {
 namespace {
-
-constexpr int32_t largest_by_degree = 8000;  // vertices; on larger surfaces nested dissection is faster
 
 constexpr int lanes = HeatMethod::lanes;
 
@@ -99,9 +96,7 @@ HeatMethod::HeatMethod(const TriangleMesh& mesh, const Operators& operators, con
                        double time_factor, bool keep_negative_heat)
     : keep_negative_heat_(keep_negative_heat) {
   execution.check_cancelled();
-  const bool is_large = mesh.vertex_count() > largest_by_degree;
-  const auto symbolic = std::make_shared<const SymbolicFactor>(analyse_pattern(
-      operators.L, is_large ? nested_dissection(operators.L, mesh.positions) : std::vector<int32_t>{}));
+  const auto symbolic = std::make_shared<const SymbolicFactor>(analyse_pattern(operators.L));
   parallel_for(execution, 2, [&](int64_t part) {
     if (part == 0) {
       choose_time(mesh, operators, time_factor);

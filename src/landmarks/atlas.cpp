@@ -151,7 +151,7 @@ SpectralTargets spectral_targets(const SurfaceAnalysis& analysis) {
   return {analysis.eigenfunctions, farthest_points(analysis.surface().positions, spread_targets)};
 }
 
-std::vector<CarriedMarks> carry_marks(const std::vector<const AtlasShape*>& atlas, float reach,
+std::vector<CarriedMarks> carry_marks(const std::vector<AtlasShape>& atlas, float reach,
                                       const SurfaceAnalysis& analysis, const SpectralTargets& targets,
                                       const std::vector<int32_t>& landmark, const RowMatrixf& fields,
                                       const MapParams& params, const Execution& execution) {
@@ -160,7 +160,7 @@ std::vector<CarriedMarks> carry_marks(const std::vector<const AtlasShape*>& atla
     for (int i = 0; i < 3; ++i) triangles_at[analysis.surface().triangles(t, i)].push_back(t);
   std::vector<CarriedMarks> result(atlas.size());
   parallel_for(execution, static_cast<int64_t>(atlas.size()), [&](int64_t s) {
-    result[s] = carry(*atlas[s], first_images(*atlas[s], reach, landmark, fields), analysis, targets,
+    result[s] = carry(atlas[s], first_images(atlas[s], reach, landmark, fields), analysis, targets,
                       triangles_at, params);
   });
   return result;

@@ -23,7 +23,7 @@ struct CarriedMarks {
 
 // landmark, point: those placed so far, which the maps start from; fields: their distances, as above.
 // spectral: the analysed surface as the target of maps (see spectral_targets).
-std::vector<CarriedMarks> carry_marks(const std::vector<const AtlasShape*>& atlas, float reach,
+std::vector<CarriedMarks> carry_marks(const std::vector<AtlasShape>& atlas, float reach,
                                       const SurfaceAnalysis& analysis, const SpectralTargets& targets,
                                       const std::vector<int32_t>& landmark, const RowMatrixf& fields,
                                       const MapParams& params, const Execution& execution);

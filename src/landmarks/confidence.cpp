@@ -62,14 +62,16 @@ double fit_odds(const Calibration& calibration, double mesh) {
   return calibration.fit_scale * (mesh - calibration.fit_centre);
 }
 
-Features features_of(const Calibration& calibration, int32_t landmark, const Evidence& e, double odds) {
-  const auto length = [](float x) { return std::log(std::clamp(x, 0.0f, 0.3f) + 0.005f); };
+float length_feature(float length) { return std::log(std::clamp(length, 0.0f, 0.3f) + 0.005f); }
+
+Features features_of(const Calibration& calibration, int32_t landmark, const Evidence& e, double odds,
+                     bool mapped) {
   return {e.vote_ratio,
           e.residual,
           log_level(calibration, landmark, e),
           std::clamp(e.rival, 0.0f, 2.0f),
-          length(e.spread),
-          length(e.gap),
+          mapped ? length_feature(e.spread) : calibration.typical_length[0],
+          mapped ? length_feature(e.gap) : calibration.typical_length[1],
           std::exp(-std::clamp(e.border, 0.0f, 1.0f) / 0.05f),
           static_cast<float>(std::clamp(odds, -6.0, 3.0))};
 }
@@ -108,6 +110,8 @@ void learn_typical(const std::vector<JudgedPlacement>& judged, Calibration& resu
   double error[2] = {}, number[2] = {}, residual = 0;
   for (const auto& j : judged) {
     residual += j.map_residual / static_cast<double>(judged.size());
+    result.typical_length[0] += length_feature(j.evidence.spread) / static_cast<float>(judged.size());
+    result.typical_length[1] += length_feature(j.evidence.gap) / static_cast<float>(judged.size());
     if (!j.is_marked) continue;
     const bool near = j.error < near_radius;
     error[near] += j.error, ++number[near];
@@ -156,7 +160,8 @@ Calibration calibrate(const std::vector<JudgedPlacement>& judged, int32_t landma
   for (const auto& mesh : meshes) {
     const double odds = fit_odds(result, evidence_of_mesh(result, judged, mesh));
     for (size_t i = mesh.begin; i < mesh.end; ++i) {
-      x.push_back(features_of(result, judged[i].landmark, judged[i].evidence, odds));
+      x.push_back(
+          features_of(result, judged[i].landmark, judged[i].evidence, odds, judged[i].map_residual > 0));
       is_right.push_back(judged[i].is_marked && judged[i].error < near_radius);
       is_absent.push_back(!judged[i].is_marked);
     }
@@ -174,7 +179,7 @@ Judgement judge(const Calibration& calibration, const std::vector<Evidence>& evi
   const double gate = logistic(odds + 2.2);  // 0.9 where the fit is a half, 0.5 where it is a tenth
   Judgement result{logistic(odds), {}, {}};
   for (const int32_t l : all) {
-    const Features x = features_of(calibration, l, evidence[l], odds);
+    const Features x = features_of(calibration, l, evidence[l], odds, map_residual > 0);
     result.confidence.push_back(gate * logistic(weighted(calibration.weight, x)));
     result.absent.push_back(logistic(weighted(calibration.absent_weight, x)));
   }

@@ -14,12 +14,12 @@ namespace {
 constexpr MapParams full_maps{.first = 20, .last = 120, .step = 8};
 constexpr MapParams quick_maps{
     .first = 20, .last = 120, .step = 20};  // tell the choices apart better than fewer functions do
-constexpr double residual_weight = 40;      // of a choice's log residual, against its log energy
-constexpr double alike_falloff = 30;        // a map counts exp(-falloff (residual - least residual))
-constexpr double outlier_distance = 0.03;   // of sqrt(area): marks farther from the consensus count less
-constexpr size_t few_shapes = 4;            // asked with quality interactive
-constexpr double far_energy = 2;            // times the least: such a choice is not worth a map
-constexpr int rounds = 8;                   // of reweighting
+constexpr double residual_weight =
+    12;  // of a choice's log residual, against its log energy; right from 3 to 35
+constexpr double alike_falloff = 30;       // a map counts exp(-falloff (residual - least residual))
+constexpr double outlier_distance = 0.03;  // of sqrt(area): marks farther from the consensus count less
+constexpr double far_energy = 2;           // times the least: such a choice is not worth a map
+constexpr int rounds = 8;                  // of reweighting
 
 struct Opinion {
   Vector3 position;
@@ -73,15 +73,7 @@ double mean_residual(const std::vector<CarriedMarks>& carried) {
 
 }  // namespace
 
-std::vector<const AtlasShape*> asked_shapes(const LandmarkModel& model, Quality quality) {
-  const size_t all = model.atlas.size(), count = quality == Quality::best ? all : std::min(all, few_shapes);
-  std::vector<const AtlasShape*> result;
-  for (size_t i = 0; i < count; ++i) result.push_back(&model.atlas[i * all / count]);
-  return result;
-}
-
-size_t most_alike(const LandmarkModel& model, const std::vector<const AtlasShape*>& atlas,
-                  const SurfaceAnalysis& analysis, const SpectralTargets& targets,
+size_t most_alike(const LandmarkModel& model, const SurfaceAnalysis& analysis, const SpectralTargets& targets,
                   const std::vector<ConstellationChoice>& choices, const std::vector<int32_t>& vertices,
                   const Execution& execution) {
   size_t best = 0;
@@ -95,31 +87,29 @@ size_t most_alike(const LandmarkModel& model, const std::vector<const AtlasShape
         landmark.push_back(static_cast<int32_t>(l)), vertex.push_back(vertices[candidate]);
     const RowMatrixf fields = analysis.heat.distances(vertex, execution);
     const auto carried =
-        carry_marks(atlas, model.reach, analysis, targets, landmark, fields, quick_maps, execution);
+        carry_marks(model.atlas, model.reach, analysis, targets, landmark, fields, quick_maps, execution);
     const double cost = residual_weight * std::log(mean_residual(carried)) + std::log(choices[c].energy);
     if (cost < least) least = cost, best = c;
   }
   return best;
 }
 
-void join_carried_marks(const LandmarkModel& model, const std::vector<const AtlasShape*>& atlas,
-                        Quality quality, const SurfaceAnalysis& analysis, const SpectralTargets& targets,
-                        Placement& placement, const Execution& execution) {
+void join_carried_marks(const LandmarkModel& model, const SurfaceAnalysis& analysis,
+                        const SpectralTargets& targets, Placement& placement, const Execution& execution) {
   Placed placed;
   for (size_t l = 0; l < placement.vertex.size(); ++l)
     if (placement.vertex[l] >= 0)
       placed.landmark.push_back(static_cast<int32_t>(l)), placed.point.push_back(placement.point[l]);
   if (placed.landmark.size() < 3) return;  // too few to start a map from
   const RowMatrixf fields = analysis.heat.distances(placed.point, execution);
-  const auto carried = carry_marks(atlas, model.reach, analysis, targets, placed.landmark, fields,
-                                   quality == Quality::best ? full_maps : quick_maps, execution);
+  const auto carried =
+      carry_marks(model.atlas, model.reach, analysis, targets, placed.landmark, fields, full_maps, execution);
   double least = std::numeric_limits<double>::infinity(), sum = 0;
   std::vector<double> alike;
   for (const auto& shape : carried) least = std::min<double>(least, shape.residual);
   for (const auto& shape : carried) alike.push_back(std::exp(-alike_falloff * (shape.residual - least)));
   for (const double weight : alike) sum += weight;
-  // The residual of quick maps is another, and was not learned from.
-  if (quality == Quality::best) placement.map_residual = static_cast<float>(mean_residual(carried));
+  placement.map_residual = static_cast<float>(mean_residual(carried));
   const auto& surface = analysis.surface();
   const MatrixX3 normals = face_normals(surface);
   std::vector<SurfaceQuery> queries;

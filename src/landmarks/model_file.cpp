@@ -209,6 +209,7 @@ void write_calibration(const LandmarkModel& model, ByteWriter& out) {
   out.u32(Calibration::feature_count);
   out.f32s(calibration.weight);
   out.f32s(calibration.absent_weight);
+  out.f32s(calibration.typical_length);
   out.f32(calibration.typical_residual);
   out.f32(calibration.near_error);
   out.f32(calibration.far_error);
@@ -226,6 +227,7 @@ void read_calibration(ByteReader in, LandmarkModel& model) {
   in.count("feature count", 32, Calibration::feature_count, Calibration::feature_count);
   for (float& weight : calibration.weight) weight = in.f32("weight", -any_number, any_number);
   for (float& weight : calibration.absent_weight) weight = in.f32("weight", -any_number, any_number);
+  for (float& length : calibration.typical_length) length = in.f32("typical length", -any_number, any_number);
   calibration.typical_residual = in.f32("typical residual", 0, any_number);
   calibration.near_error = in.f32("near error", 0, longest);
   calibration.far_error = in.f32("far error", 0, longest);

@@ -20,9 +20,10 @@ struct Calibration {
   std::vector<float> typical_vote;       // per landmark: vote a sample at the true place, 0 when unknown
   float weight[feature_count + 1] = {};  // logistic regression: it lies where it should; the last is the bias
   float absent_weight[feature_count + 1] = {};  // likewise: it is not on this mesh at all
-  float typical_residual = 0;                   // of the maps from the training shapes; 0: no maps
-  float near_error = 0.02f, far_error = 0.5f;   // mean error when right and when wrong, of sqrt(area)
-  float fit_centre = 0, fit_scale = 1;          // category fit: logistic of a mesh's mean evidence
+  float typical_length[2] = {};  // mean features of spread and gap: they stand in where no map was made
+  float typical_residual = 0;    // of the maps from the training shapes; 0: no maps
+  float near_error = 0.02f, far_error = 0.5f;  // mean error when right and when wrong, of sqrt(area)
+  float fit_centre = 0, fit_scale = 1;         // category fit: logistic of a mesh's mean evidence
 };
 
 // One training shape as functional maps need it; see landmarks/atlas.h.

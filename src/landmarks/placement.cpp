@@ -128,18 +128,17 @@ Placement place_landmarks(const LandmarkModel& model, const SurfaceAnalysis& ana
   std::vector<int32_t> vertices;
   const ConstellationCandidates candidates =
       make_candidates(peaks, result.votes, analysis, vertices, execution);
-  const auto atlas = asked_shapes(model, params.quality);
-  const bool by_maps = !atlas.empty();
+  const bool by_maps = !model.atlas.empty() && params.quality == Quality::best;
   const auto choices = distinct_constellations(model.constellation, candidates, ConstellationParams{},
                                                by_maps ? distinct_choices : 1, execution);
   const SpectralTargets targets = by_maps ? spectral_targets(analysis) : SpectralTargets{};
   const ConstellationChoice& choice =
-      choices[by_maps ? most_alike(model, atlas, analysis, targets, choices, vertices, execution) : 0];
+      choices[by_maps ? most_alike(model, analysis, targets, choices, vertices, execution) : 0];
   result.energy = choice.energy;
   record_evidence(peaks, candidates, choice, samples, vertices, result);
   seconds.constellation += watch.lap();
   refine_placement(model.constellation, analysis, result, execution);
-  if (by_maps) join_carried_marks(model, atlas, params.quality, analysis, targets, result, execution);
+  if (by_maps) join_carried_marks(model, analysis, targets, result, execution);
   record_borders(analysis, result);
   seconds.refine += watch.lap();
   return result;

@@ -258,6 +258,13 @@ TEST_CASE("a model of ten meshes of 12,500 vertices and 36 landmarks stays under
   model.constellation.handedness_mean.assign(L * L * L, 0.5F);
   model.constellation.handedness_sd.assign(L * L * L, 0.5F);
   model.calibration.typical_vote.assign(L, 0.5F);
+  model.shape_count = 10;
+  AtlasShape shape = model.atlas[0];
+  shape.samples.Phi = RowMatrixf::Constant(800 + L, 128, shape.step);
+  shape.samples.weight = Eigen::VectorXf::Constant(800 + L, 0.00125F);
+  shape.distances = TargetMatrix::Constant(800, L, 12345);
+  shape.marked.assign(L, 1);
+  model.atlas.assign(10, shape);
   const Bytes file = serialise(model);
   MESSAGE("file size: " << static_cast<double>(file.size()) / 1e6 << " MB");
   CHECK(file.size() < 25'000'000);

@@ -68,6 +68,7 @@ inline focal::LandmarkModel small_model(focal::Preset preset) {
   for (int32_t i = 0; i <= focal::Calibration::feature_count; ++i)
     model.calibration.weight[i] = static_cast<float>(i) - 1.5F,
     model.calibration.absent_weight[i] = 2.5F - static_cast<float>(i);
+  model.calibration.typical_length[0] = -3, model.calibration.typical_length[1] = -3.5F;
   model.calibration.typical_residual = 0.25F;
   model.calibration.near_error = 0.03125F, model.calibration.far_error = 0.375F;
   model.calibration.fit_centre = -0.5F, model.calibration.fit_scale = 2;
