@@ -148,7 +148,9 @@ AtlasShape remember_shape(const SurfaceAnalysis& analysis,
 }
 
 SpectralTargets spectral_targets(const SurfaceAnalysis& analysis) {
-  return {analysis.eigenfunctions, farthest_points(analysis.surface().positions, spread_targets)};
+  // The samples are drawn by number: unlike farthest points, of which many are ties, they stay when the mesh is moved.
+  const auto count = std::min<size_t>(analysis.samples.size(), spread_targets);
+  return {analysis.eigenfunctions, {analysis.samples.begin(), analysis.samples.begin() + count}};
 }
 
 std::vector<CarriedMarks> carry_marks(const std::vector<AtlasShape>& atlas, float reach,
