@@ -163,17 +163,21 @@ void judge_shape(const LandmarkModel& model, const MarkedShape& shape, const Sur
 
 // The same shape as a scanner spoils it, or with a part missing: what such meshes look like has to be learned too.
 std::optional<MarkedShape> spoiled(const MarkedShape& shape, bool cut, Random random) {
+  constexpr int32_t smallest = 100;  // vertices that make a shape still, when some have gone
   DamagedMesh damaged = undamaged(shape.mesh->surface, shape.marks);
   if (cut) {
     std::vector<SurfacePoint> marks;
     for (const auto& mark : shape.marks)
       if (mark) marks.push_back(*mark);
+    if (marks.empty()) return std::nullopt;
     const SurfacePoint& centre = marks[random.below(static_cast<uint32_t>(marks.size()))];
     damaged = cut_ball(std::move(damaged), centre, 0.15 + 0.25 * random.uniform(), CutEnd::open);
   } else {
     damaged = with_holes(with_noise(std::move(damaged), 0.3 * random.uniform(), random), 20, 2, random);
   }
-  if (damaged.mesh.triangle_count() < shape.mesh->surface.triangle_count() / 3) return std::nullopt;
+  if (damaged.mesh.vertex_count() < smallest ||
+      damaged.mesh.triangle_count() < shape.mesh->surface.triangle_count() / 3)
+    return std::nullopt;
   MarkedShape result{std::make_shared<PreparedMesh>(prepare(std::move(damaged.mesh))), {}};
   for (const auto& mark : damaged.marks) {
     result.marks.emplace_back();
