@@ -133,7 +133,7 @@ static void check_regions(const focal_detection* detection, const shape* body) {
       squared += pow(landmark.position[k] - body->positions[3 * v + (uint64_t)k], 2);
     CHECK(distances[v] > 0.9 * sqrt(squared) - edge && distances[v] < 20 * edge * RINGS);
     CHECK(region[v] >= 0 && region[v] <= 1);
-    const int is_inside = distances[v] < radius - edge, is_outside = distances[v] > radius + edge;
+    const int is_inside = distances[v]<radius - edge, is_outside = distances[v]> radius + edge;
     CHECK(!is_inside || region[v] == 1);
     CHECK(!is_outside || region[v] == 0);
     inside += is_inside, outside += is_outside;
@@ -147,8 +147,8 @@ static void check_regions(const focal_detection* detection, const shape* body) {
                 FOCAL_ERROR_INVALID_ARGUMENT, "radius is -1");
   CHECK_REFUSED(focal_detection_region(detection, 0, (double)NAN, body->vertex_count, region),
                 FOCAL_ERROR_INVALID_ARGUMENT, "radius");
-  CHECK_REFUSED(focal_detection_region(detection, 0, 1, body->vertex_count, NULL), FOCAL_ERROR_INVALID_ARGUMENT,
-                "out_membership");
+  CHECK_REFUSED(focal_detection_region(detection, 0, 1, body->vertex_count, NULL),
+                FOCAL_ERROR_INVALID_ARGUMENT, "out_membership");
   free(distances), free(region);
   focal_mesh_destroy(mesh);
 }
