@@ -169,10 +169,7 @@ class Descent {
 
 }  // namespace
 
-namespace {
-
-// One descent from the best votes and the others from random candidates, best first.
-std::vector<ConstellationChoice> descend(const ConstellationStatistics& statistics,
+ConstellationChoice choose_constellation(const ConstellationStatistics& statistics,
                                          const ConstellationCandidates& candidates,
                                          const ConstellationParams& params, const Execution& execution) {
   const Tables tables(statistics);
@@ -190,41 +187,8 @@ std::vector<ConstellationChoice> descend(const ConstellationStatistics& statisti
     results[r].candidate = descent.chosen();
     for (int32_t l = 0; l < tables.L; ++l) results[r].residual.push_back(descent.residual(l));
   });
-  std::stable_sort(results.begin(), results.end(),
-                   [](const auto& a, const auto& b) { return a.energy < b.energy; });
-  return results;
-}
-
-bool differ(const ConstellationChoice& a, const ConstellationChoice& b, const RowMatrixf& distance) {
-  constexpr float same_place = 0.16f;  // of sqrt(area): twice the separation of the peaks
-  size_t placed = 0, elsewhere = 0;
-  for (size_t l = 0; l < a.candidate.size(); ++l) {
-    if (a.candidate[l] < 0) continue;
-    ++placed;
-    elsewhere += distance(a.candidate[l], b.candidate[l]) > same_place;
-  }
-  return 5 * elsewhere > placed;
-}
-
-}  // namespace
-
-ConstellationChoice choose_constellation(const ConstellationStatistics& statistics,
-                                         const ConstellationCandidates& candidates,
-                                         const ConstellationParams& params, const Execution& execution) {
-  return descend(statistics, candidates, params, execution)[0];
-}
-
-std::vector<ConstellationChoice> distinct_constellations(const ConstellationStatistics& statistics,
-                                                         const ConstellationCandidates& candidates,
-                                                         const ConstellationParams& params, size_t most,
-                                                         const Execution& execution) {
-  std::vector<ConstellationChoice> distinct;
-  for (auto& choice : descend(statistics, candidates, params, execution))
-    if (distinct.size() < most && std::all_of(distinct.begin(), distinct.end(), [&](const auto& kept) {
-          return differ(kept, choice, candidates.distance);
-        }))
-      distinct.push_back(std::move(choice));
-  return distinct;
+  return *std::min_element(results.begin(), results.end(),
+                           [](const auto& a, const auto& b) { return a.energy < b.energy; });
 }
 
 ConstellationStatistics learn_constellation(std::span<const ConstellationSample> samples, int32_t landmarks) {

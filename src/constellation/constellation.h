@@ -66,11 +66,4 @@ ConstellationChoice choose_constellation(const ConstellationStatistics& statisti
                                          const ConstellationCandidates& candidates,
                                          const ConstellationParams& params, const Execution& execution);
 
-// The best choices that differ in more than a fifth of their landmarks, best first, at least one and at most `most`: what a
-// body turned front to back would be is among them, since it keeps distances and handedness nearly as well.
-std::vector<ConstellationChoice> distinct_constellations(const ConstellationStatistics& statistics,
-                                                         const ConstellationCandidates& candidates,
-                                                         const ConstellationParams& params, size_t most,
-                                                         const Execution& execution);
-
 }  // namespace focal

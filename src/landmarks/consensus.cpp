@@ -12,13 +12,8 @@ namespace {
 
 // All chosen by cross-validation on training splits of nine categories; the errors are flat round them.
 constexpr MapParams full_maps{.first = 20, .last = 120, .step = 8};
-constexpr MapParams quick_maps{
-    .first = 20, .last = 120, .step = 20};  // tell the choices apart better than fewer functions do
-constexpr double residual_weight =
-    12;  // of a choice's log residual, against its log energy; right from 3 to 35
 constexpr double alike_falloff = 30;       // a map counts exp(-falloff (residual - least residual))
 constexpr double outlier_distance = 0.03;  // of sqrt(area): marks farther from the consensus count less
-constexpr double far_energy = 2;           // times the least: such a choice is not worth a map
 constexpr int rounds = 8;                  // of reweighting
 
 struct Opinion {
@@ -72,27 +67,6 @@ double mean_residual(const std::vector<CarriedMarks>& carried) {
 }
 
 }  // namespace
-
-size_t most_alike(const LandmarkModel& model, const SurfaceAnalysis& analysis, const SpectralTargets& targets,
-                  const std::vector<ConstellationChoice>& choices, const std::vector<int32_t>& vertices,
-                  const Execution& execution) {
-  size_t best = 0;
-  if (choices.size() == 1 || choices[1].energy > far_energy * choices[0].energy) return best;
-  double least = std::numeric_limits<double>::infinity();
-  for (size_t c = 0; c < choices.size(); ++c) {
-    if (choices[c].energy > far_energy * choices[0].energy) break;  // they come best first
-    std::vector<int32_t> landmark, vertex;
-    for (size_t l = 0; l < choices[c].candidate.size(); ++l)
-      if (const int32_t candidate = choices[c].candidate[l]; candidate >= 0)
-        landmark.push_back(static_cast<int32_t>(l)), vertex.push_back(vertices[candidate]);
-    const RowMatrixf fields = analysis.heat.distances(vertex, execution);
-    const auto carried =
-        carry_marks(model.atlas, model.reach, analysis, targets, landmark, fields, quick_maps, execution);
-    const double cost = residual_weight * std::log(mean_residual(carried)) + std::log(choices[c].energy);
-    if (cost < least) least = cost, best = c;
-  }
-  return best;
-}
 
 void join_carried_marks(const LandmarkModel& model, const SurfaceAnalysis& analysis,
                         const SpectralTargets& targets, Placement& placement, const Execution& execution) {

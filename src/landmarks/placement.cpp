@@ -18,7 +18,6 @@ namespace {
 constexpr int32_t samples_at_once = 128;  // whose tables are in memory; a multiple of 32
 constexpr double peak_separation = 0.08;  // of sqrt(area), as measured in the reference
 constexpr double disc_radius = 0.04;      // of the tangent directions, likewise
-constexpr size_t distinct_choices = 3;    // of the constellation, among which the maps decide
 
 // Votes of the first `count` samples, vertices x landmarks.
 RowMatrixf cast_votes(const LandmarkModel& model, const SurfaceAnalysis& analysis, int32_t count,
@@ -129,11 +128,9 @@ Placement place_landmarks(const LandmarkModel& model, const SurfaceAnalysis& ana
   const ConstellationCandidates candidates =
       make_candidates(peaks, result.votes, analysis, vertices, execution);
   const bool by_maps = !model.atlas.empty() && params.quality == Quality::best;
-  const auto choices = distinct_constellations(model.constellation, candidates, ConstellationParams{},
-                                               by_maps ? distinct_choices : 1, execution);
   const SpectralTargets targets = by_maps ? spectral_targets(analysis) : SpectralTargets{};
-  const ConstellationChoice& choice =
-      choices[by_maps ? most_alike(model, analysis, targets, choices, vertices, execution) : 0];
+  const ConstellationChoice choice =
+      choose_constellation(model.constellation, candidates, ConstellationParams{}, execution);
   result.energy = choice.energy;
   record_evidence(peaks, candidates, choice, samples, vertices, result);
   seconds.constellation += watch.lap();
