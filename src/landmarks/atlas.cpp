@@ -114,6 +114,12 @@ CarriedMarks carry(const AtlasShape& shape, std::vector<int32_t> images, const S
   return result;
 }
 
+SpectralTargets spectral_targets(const SurfaceAnalysis& analysis) {
+  // The samples are drawn by number: unlike farthest points, of which many are ties, they stay when the mesh is moved.
+  const auto count = std::min<size_t>(analysis.samples.size(), spread_targets);
+  return {analysis.eigenfunctions, {analysis.samples.begin(), analysis.samples.begin() + count}};
+}
+
 }  // namespace
 
 AtlasShape remember_shape(const SurfaceAnalysis& analysis,
@@ -147,16 +153,11 @@ AtlasShape remember_shape(const SurfaceAnalysis& analysis,
   return shape;
 }
 
-SpectralTargets spectral_targets(const SurfaceAnalysis& analysis) {
-  // The samples are drawn by number: unlike farthest points, of which many are ties, they stay when the mesh is moved.
-  const auto count = std::min<size_t>(analysis.samples.size(), spread_targets);
-  return {analysis.eigenfunctions, {analysis.samples.begin(), analysis.samples.begin() + count}};
-}
-
 std::vector<CarriedMarks> carry_marks(const std::vector<AtlasShape>& atlas, float reach,
-                                      const SurfaceAnalysis& analysis, const SpectralTargets& targets,
-                                      const std::vector<int32_t>& landmark, const RowMatrixf& fields,
-                                      const MapParams& params, const Execution& execution) {
+                                      const SurfaceAnalysis& analysis, const std::vector<int32_t>& landmark,
+                                      const RowMatrixf& fields, const MapParams& params,
+                                      const Execution& execution) {
+  const SpectralTargets targets = spectral_targets(analysis);
   std::vector<std::vector<int32_t>> triangles_at(analysis.surface().vertex_count());
   for (int32_t t = 0; t < analysis.surface().triangle_count(); ++t)
     for (int i = 0; i < 3; ++i) triangles_at[analysis.surface().triangles(t, i)].push_back(t);

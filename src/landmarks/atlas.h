@@ -21,13 +21,10 @@ struct CarriedMarks {
   float residual = 0;                              // of the map: small where the shapes are alike
 };
 
-// landmark, point: those placed so far, which the maps start from; fields: their distances, as above.
-// spectral: the analysed surface as the target of maps (see spectral_targets).
+// landmark: those placed so far, which the maps start from; fields: the distances of all vertices from them, in this order.
 std::vector<CarriedMarks> carry_marks(const std::vector<AtlasShape>& atlas, float reach,
-                                      const SurfaceAnalysis& analysis, const SpectralTargets& targets,
-                                      const std::vector<int32_t>& landmark, const RowMatrixf& fields,
-                                      const MapParams& params, const Execution& execution);
-
-SpectralTargets spectral_targets(const SurfaceAnalysis& analysis);
+                                      const SurfaceAnalysis& analysis, const std::vector<int32_t>& landmark,
+                                      const RowMatrixf& fields, const MapParams& params,
+                                      const Execution& execution);
 
 }  // namespace focal

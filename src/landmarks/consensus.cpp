@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 #include "mesh/closest_point.h"
 #include "mesh/prepare.h"
@@ -11,7 +13,7 @@ namespace focal {
 namespace {
 
 // All chosen by cross-validation on training splits of nine categories; the errors are flat round them.
-constexpr MapParams full_maps{.first = 20, .last = 120, .step = 8};
+constexpr MapParams map_params{.first = 20, .last = 120, .step = 8};
 constexpr double alike_falloff = 30;       // a map counts exp(-falloff (residual - least residual))
 constexpr double outlier_distance = 0.03;  // of sqrt(area): marks farther from the consensus count less
 constexpr int rounds = 8;                  // of reweighting
@@ -55,57 +57,64 @@ Consensus consensus_of(const std::vector<Opinion>& opinions) {
   return result;
 }
 
-struct Placed {
-  std::vector<int32_t> landmark;
-  std::vector<SurfacePoint> point;
-};
+// How much the map of each training shape counts.
+std::vector<double> weights_of(const std::vector<CarriedMarks>& carried) {
+  float least = std::numeric_limits<float>::infinity();
+  for (const auto& shape : carried) least = std::min(least, shape.residual);
+  std::vector<double> weights;
+  for (const auto& shape : carried) weights.push_back(std::exp(-alike_falloff * (shape.residual - least)));
+  return weights;
+}
 
-double mean_residual(const std::vector<CarriedMarks>& carried) {
-  double sum = 0;
-  for (const auto& shape : carried) sum += shape.residual;
-  return sum / static_cast<double>(carried.size());
+// The landmark's own place, as one more shape of mean weight, and its marks on the training shapes.
+std::vector<Opinion> opinions_on(int32_t landmark, const SurfacePoint& own, const TriangleMesh& surface,
+                                 const std::vector<CarriedMarks>& carried,
+                                 const std::vector<double>& weights) {
+  const double mean =
+      std::accumulate(weights.begin(), weights.end(), 0.0) / static_cast<double>(weights.size());
+  std::vector<Opinion> opinions = {{position_of(surface, own), mean, own.triangle}};
+  for (size_t s = 0; s < carried.size(); ++s)
+    if (const auto& point = carried[s].point[landmark])
+      opinions.push_back({position_of(surface, *point), weights[s], point->triangle});
+  return opinions;
+}
+
+int32_t nearest_corner(const TriangleMesh& surface, const SurfacePoint& point) {
+  int nearest = 0;
+  point.barycentric.maxCoeff(&nearest);
+  return surface.triangles(point.triangle, nearest);
 }
 
 }  // namespace
 
-void join_carried_marks(const LandmarkModel& model, const SurfaceAnalysis& analysis,
-                        const SpectralTargets& targets, Placement& placement, const Execution& execution) {
-  Placed placed;
+void join_carried_marks(const LandmarkModel& model, const SurfaceAnalysis& analysis, Placement& placement,
+                        const Execution& execution) {
+  std::vector<int32_t> placed;
+  std::vector<SurfacePoint> places;
   for (size_t l = 0; l < placement.vertex.size(); ++l)
     if (placement.vertex[l] >= 0)
-      placed.landmark.push_back(static_cast<int32_t>(l)), placed.point.push_back(placement.point[l]);
-  if (placed.landmark.size() < 3) return;  // too few to start a map from
-  const RowMatrixf fields = analysis.heat.distances(placed.point, execution);
-  const auto carried =
-      carry_marks(model.atlas, model.reach, analysis, targets, placed.landmark, fields, full_maps, execution);
-  double least = std::numeric_limits<double>::infinity(), sum = 0;
-  std::vector<double> alike;
-  for (const auto& shape : carried) least = std::min<double>(least, shape.residual);
-  for (const auto& shape : carried) alike.push_back(std::exp(-alike_falloff * (shape.residual - least)));
-  for (const double weight : alike) sum += weight;
-  placement.map_residual = static_cast<float>(mean_residual(carried));
-  const auto& surface = analysis.surface();
+      placed.push_back(static_cast<int32_t>(l)), places.push_back(placement.point[l]);
+  if (placed.size() < 3) return;  // too few to start a map from
+  const auto carried = carry_marks(model.atlas, model.reach, analysis, placed,
+                                   analysis.heat.distances(places, execution), map_params, execution);
+  for (const auto& shape : carried)
+    placement.map_residual += shape.residual / static_cast<float>(carried.size());
+  const std::vector<double> weights = weights_of(carried);
+  const TriangleMesh& surface = analysis.surface();
   const MatrixX3 normals = face_normals(surface);
   std::vector<SurfaceQuery> queries;
-  for (const int32_t l : placed.landmark) {
-    const SurfacePoint& own = placement.point[l];
-    std::vector<Opinion> opinions = {
-        {position_of(surface, own), sum / static_cast<double>(carried.size()), own.triangle}};
-    for (size_t s = 0; s < carried.size(); ++s)
-      if (const auto& point = carried[s].point[l])
-        opinions.push_back({position_of(surface, *point), alike[s], point->triangle});
+  for (size_t p = 0; p < placed.size(); ++p) {
+    const auto opinions = opinions_on(placed[p], places[p], surface, carried, weights);
     const Consensus consensus = consensus_of(opinions);
-    placement.evidence[l].spread = static_cast<float>(consensus.spread);
-    placement.evidence[l].gap = static_cast<float>((consensus.position - opinions[0].position).norm());
+    Evidence& evidence = placement.evidence[placed[p]];
+    evidence.spread = static_cast<float>(consensus.spread);
+    evidence.gap = static_cast<float>((consensus.position - opinions[0].position).norm());
     queries.push_back({consensus.position, normals.row(consensus.triangle).transpose()});
   }
   const auto points = closest_points(surface, queries, 2 * analysis.operators.mean_edge);
-  for (size_t p = 0; p < points.size(); ++p) {
-    const int32_t l = placed.landmark[p];
-    placement.point[l] = points[p];
-    int nearest = 0;
-    points[p].barycentric.maxCoeff(&nearest);
-    placement.vertex[l] = surface.triangles(points[p].triangle, nearest);
+  for (size_t p = 0; p < placed.size(); ++p) {
+    placement.point[placed[p]] = points[p];
+    placement.vertex[placed[p]] = nearest_corner(surface, points[p]);
   }
 }
 

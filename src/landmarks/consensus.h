@@ -9,7 +9,7 @@ namespace focal {
 
 // Moves each placed landmark to where its own place and the marks carried over from all training shapes agree, and records
 // in its evidence how well they do.
-void join_carried_marks(const LandmarkModel& model, const SurfaceAnalysis& analysis,
-                        const SpectralTargets& targets, Placement& placement, const Execution& execution);
+void join_carried_marks(const LandmarkModel& model, const SurfaceAnalysis& analysis, Placement& placement,
+                        const Execution& execution);
 
 }  // namespace focal

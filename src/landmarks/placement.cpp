@@ -127,15 +127,14 @@ Placement place_landmarks(const LandmarkModel& model, const SurfaceAnalysis& ana
   std::vector<int32_t> vertices;
   const ConstellationCandidates candidates =
       make_candidates(peaks, result.votes, analysis, vertices, execution);
-  const bool by_maps = !model.atlas.empty() && params.quality == Quality::best;
-  const SpectralTargets targets = by_maps ? spectral_targets(analysis) : SpectralTargets{};
   const ConstellationChoice choice =
       choose_constellation(model.constellation, candidates, ConstellationParams{}, execution);
   result.energy = choice.energy;
   record_evidence(peaks, candidates, choice, samples, vertices, result);
   seconds.constellation += watch.lap();
   refine_placement(model.constellation, analysis, result, execution);
-  if (by_maps) join_carried_marks(model, analysis, targets, result, execution);
+  if (!model.atlas.empty() && params.quality == Quality::best)
+    join_carried_marks(model, analysis, result, execution);
   record_borders(analysis, result);
   seconds.refine += watch.lap();
   return result;

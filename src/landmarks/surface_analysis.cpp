@@ -65,7 +65,8 @@ SurfaceAnalysis analyse_surface(std::shared_ptr<const PreparedMesh> mesh, const 
   EigenParams eigen;
   eigen.count = params.eigenpair_count;
   eigen.method = EigenMethod::chebyshev;
-  eigen.tolerance = 1e-7;  // far below what the signatures, and a forest's thresholds, can tell
+  eigen.tolerance =
+      1e-7;  // 1e-5 serves the signatures; maps turn what is left of the error into whole vertices
   const Eigenbasis basis =
       eigenbasis(result.operators.L, result.operators.mass, eigen, execution, result.heat.symbolic());
   result.eigenfunctions = basis.Phi.cast<float>();

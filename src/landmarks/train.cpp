@@ -188,12 +188,6 @@ std::optional<MarkedShape> spoiled(const MarkedShape& shape, bool cut, Random ra
   return result;
 }
 
-// As they are met in detection.
-SurfaceAnalysis analyse_to_judge(const MarkedShape& shape, const TrainParams& params,
-                                 const Execution& execution) {
-  return analyse_for(params, shape.mesh, DetectParams{}, execution);
-}
-
 // Places the landmarks of every shape, whole and spoiled, by a model that has not seen it, and learns from the outcome
 // how far to trust.
 Calibration cross_fit(const LandmarkModel& model, const TrainingSet& set,
@@ -220,8 +214,8 @@ Calibration cross_fit(const LandmarkModel& model, const TrainingSet& set,
       for (int32_t kind = 1; kind <= 2; ++kind) {
         const auto bad = spoiled(shape, kind == 2, Random(model.params.seed, 5000 + 3 * order[i] + kind));
         if (!bad) continue;
-        judge_shape(part, *bad, analyse_to_judge(*bad, model.params, execution), 3 * order[i] + kind, judged,
-                    execution);
+        judge_shape(part, *bad, analyse_for(model.params, bad->mesh, DetectParams{}, execution),
+                    3 * order[i] + kind, judged, execution);
       }
       execution.report(static_cast<double>(i + 1) / count);
     }
