@@ -107,9 +107,9 @@ double evidence_of_mesh(const Calibration& calibration, const std::vector<Judged
 // Typical votes, errors and residual.
 void learn_typical(const std::vector<JudgedPlacement>& judged, Calibration& result) {
   std::vector<int32_t> count(result.typical_vote.size(), 0);
-  double error[2] = {}, number[2] = {}, residual = 0;
+  double error[2] = {}, number[2] = {}, residual = 0, whole = 0;
   for (const auto& j : judged) {
-    residual += j.map_residual / static_cast<double>(judged.size());
+    if (j.is_whole) residual += j.map_residual, ++whole;
     result.typical_length[0] += length_feature(j.evidence.spread) / static_cast<float>(judged.size());
     result.typical_length[1] += length_feature(j.evidence.gap) / static_cast<float>(judged.size());
     if (!j.is_marked) continue;
@@ -121,15 +121,16 @@ void learn_typical(const std::vector<JudgedPlacement>& judged, Calibration& resu
     if (count[l]) result.typical_vote[l] /= static_cast<float>(count[l]);
   if (number[1] > 0) result.near_error = static_cast<float>(error[1] / number[1]);
   if (number[0] > 0) result.far_error = static_cast<float>(error[0] / number[0]);
-  result.typical_residual = static_cast<float>(residual);
+  result.typical_residual = static_cast<float>(residual / std::max(whole, 1.0));
 }
 
-// Category fit: 0.9 at the mean of the training meshes' evidence, 0.5 three deviations below.
+// Category fit: 0.9 at the mean of the whole training meshes' evidence, 0.5 three deviations below.
 void learn_fit(const std::vector<JudgedPlacement>& judged, const std::vector<MeshRange>& meshes,
                Calibration& result) {
   double mean = 0, square = 0;
   std::vector<double> values;
-  for (const auto& mesh : meshes) values.push_back(evidence_of_mesh(result, judged, mesh));
+  for (const auto& mesh : meshes)
+    if (judged[mesh.begin].is_whole) values.push_back(evidence_of_mesh(result, judged, mesh));
   for (const double m : values) mean += m / static_cast<double>(values.size());
   for (const double m : values) square += (m - mean) * (m - mean) / static_cast<double>(values.size());
   const double spread = std::max(std::sqrt(square), 0.1);
@@ -176,7 +177,7 @@ Judgement judge(const Calibration& calibration, const std::vector<Evidence>& evi
   std::iota(all.begin(), all.end(), 0);
   const double odds = fit_odds(calibration, mesh_evidence(calibration, all, evidence, map_residual));
   // Training shapes are all of the category: what a foreign one looks like was never seen, so it only shuts the gate.
-  const double gate = logistic(odds + 2.2);  // 0.9 where the fit is a half, 0.5 where it is a tenth
+  const double gate = logistic(odds + 6);  // far below what spoiled meshes of the category come to
   Judgement result{logistic(odds), {}, {}};
   for (const int32_t l : all) {
     const Features x = features_of(calibration, l, evidence[l], odds, map_residual > 0);

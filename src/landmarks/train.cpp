@@ -140,7 +140,8 @@ void learn_parts(LandmarkModel& model, const std::vector<const SurfaceAnalysis*>
 
 // The placements of one shape by a model that has not seen it, each with its error. id: another one for each mesh.
 void judge_shape(const LandmarkModel& model, const MarkedShape& shape, const SurfaceAnalysis& analysis,
-                 int32_t id, std::vector<JudgedPlacement>& judged, const Execution& execution) {
+                 int32_t id, bool is_whole, std::vector<JudgedPlacement>& judged,
+                 const Execution& execution) {
   const DetectParams detect;
   StageSeconds ignored;
   const auto limit =
@@ -149,8 +150,9 @@ void judge_shape(const LandmarkModel& model, const MarkedShape& shape, const Sur
                                               detect, execution, ignored);
   for (size_t l = 0; l < shape.marks.size(); ++l) {
     if (placement.vertex[l] < 0) continue;
-    JudgedPlacement one{static_cast<int32_t>(l), id, placement.evidence[l], 1, shape.marks[l].has_value(),
-                        placement.map_residual};
+    JudgedPlacement one{
+        static_cast<int32_t>(l), id,      placement.evidence[l], 1, shape.marks[l].has_value(),
+        placement.map_residual,  is_whole};
     if (shape.marks[l]) {
       const SurfacePoint truth = to_coarse(analysis.proxy, std::span(&*shape.marks[l], 1))[0];
       one.error =
@@ -210,12 +212,12 @@ Calibration cross_fit(const LandmarkModel& model, const TrainingSet& set,
     learn_parts(part, kept, lessons, execution);
     for (int32_t i = fold; i < count; i += used_folds) {
       const MarkedShape& shape = set.shapes[order[i]];
-      judge_shape(part, shape, analyses[order[i]], 3 * order[i], judged, execution);
+      judge_shape(part, shape, analyses[order[i]], 3 * order[i], true, judged, execution);
       for (int32_t kind = 1; kind <= 2; ++kind) {
         const auto bad = spoiled(shape, kind == 2, Random(model.params.seed, 5000 + 3 * order[i] + kind));
         if (!bad) continue;
         judge_shape(part, *bad, analyse_for(model.params, bad->mesh, DetectParams{}, execution),
-                    3 * order[i] + kind, judged, execution);
+                    3 * order[i] + kind, false, judged, execution);
       }
       execution.report(static_cast<double>(i + 1) / count);
     }

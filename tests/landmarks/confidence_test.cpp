@@ -120,3 +120,22 @@ TEST_CASE("a mesh that the training shapes cannot be mapped to does not fit") {
   CHECK(judge(calibration, mesh, 0.31f).category_fit > 0.8);
   CHECK(judge(calibration, mesh, 0.5f).category_fit < 0.1);
 }
+
+TEST_CASE("spoiled meshes are no measure of the category") {
+  std::vector<JudgedPlacement> judged;
+  for (int32_t s = 0; s < 20; ++s)
+    for (int32_t l = 0; l < landmarks; ++l) {
+      const bool whole = s % 2 == 0;
+      judged.push_back({l,
+                        s,
+                        {.vote_ratio = 1, .residual = whole ? 0.2f : 4, .vote_level = whole ? 2.0f : 0.2f},
+                        0.01,
+                        true,
+                        whole ? 0.3f : 0.45f,
+                        whole});
+    }
+  const Calibration calibration = calibrate(judged, landmarks);
+  CHECK(judge(calibration, std::vector<Evidence>(landmarks, judged[0].evidence), 0.3f).category_fit > 0.8);
+  CHECK(judge(calibration, std::vector<Evidence>(landmarks, judged[landmarks].evidence), 0.45f).category_fit <
+        0.1);
+}
