@@ -64,7 +64,7 @@ double fit_odds(const Calibration& calibration, double mesh) {
 
 float length_feature(float length) { return std::log(std::clamp(length, 0.0f, 0.3f) + 0.005f); }
 
-Features features_of(const Calibration& calibration, int32_t landmark, const Evidence& e, double odds,
+Features features_of(const Calibration& calibration, int32_t landmark, const Evidence& e, double mesh,
                      bool mapped) {
   return {e.vote_ratio,
           e.residual,
@@ -73,7 +73,7 @@ Features features_of(const Calibration& calibration, int32_t landmark, const Evi
           mapped ? length_feature(e.spread) : calibration.typical_length[0],
           mapped ? length_feature(e.gap) : calibration.typical_length[1],
           std::exp(-std::clamp(e.border, 0.0f, 1.0f) / 0.05f),
-          static_cast<float>(std::clamp(odds, -6.0, 3.0))};
+          static_cast<float>(std::clamp(mesh, -12.0, 4.0) / 4)};
 }
 
 double weighted(const float* weight, const Features& x) {
@@ -159,10 +159,10 @@ Calibration calibrate(const std::vector<JudgedPlacement>& judged, int32_t landma
   std::vector<Features> x;
   std::vector<char> is_right, is_absent;
   for (const auto& mesh : meshes) {
-    const double odds = fit_odds(result, evidence_of_mesh(result, judged, mesh));
+    const double evidence = evidence_of_mesh(result, judged, mesh);
     for (size_t i = mesh.begin; i < mesh.end; ++i) {
       x.push_back(
-          features_of(result, judged[i].landmark, judged[i].evidence, odds, judged[i].map_residual > 0));
+          features_of(result, judged[i].landmark, judged[i].evidence, evidence, judged[i].map_residual > 0));
       is_right.push_back(judged[i].is_marked && judged[i].error < near_radius);
       is_absent.push_back(!judged[i].is_marked);
     }
@@ -175,12 +175,13 @@ Calibration calibrate(const std::vector<JudgedPlacement>& judged, int32_t landma
 Judgement judge(const Calibration& calibration, const std::vector<Evidence>& evidence, float map_residual) {
   std::vector<int32_t> all(evidence.size());
   std::iota(all.begin(), all.end(), 0);
-  const double odds = fit_odds(calibration, mesh_evidence(calibration, all, evidence, map_residual));
+  const double mesh = mesh_evidence(calibration, all, evidence, map_residual);
+  const double odds = fit_odds(calibration, mesh);
   // Training shapes are all of the category: what a foreign one looks like was never seen, so it only shuts the gate.
   const double gate = logistic(odds + 6);  // far below what spoiled meshes of the category come to
   Judgement result{logistic(odds), {}, {}};
   for (const int32_t l : all) {
-    const Features x = features_of(calibration, l, evidence[l], odds, map_residual > 0);
+    const Features x = features_of(calibration, l, evidence[l], mesh, map_residual > 0);
     result.confidence.push_back(gate * logistic(weighted(calibration.weight, x)));
     result.absent.push_back(logistic(weighted(calibration.absent_weight, x)));
   }
