@@ -12,15 +12,16 @@ namespace focal {
 namespace {
 
 constexpr float pair_clip = 8, handedness_clip = 4;
+constexpr float least_gain = 1e-5f;  // a move must gain more than rounding
 
 // sum over b of min((x y_b - y x_b - mean_b)^2 / (2 sd_b^2), clip); inverse = 1 / (sd sqrt 2).
 FOCAL_INLINE float handedness_body(float x, float y, const float* xs, const float* ys, const float* mean,
-                                   const float* inverse, int32_t count) {
+                                   const float* inverse, const float* here, int32_t count) {
   constexpr int width = 16;  // fixed, so that every vector width adds in the same order
   float part[width] = {};
   for (int32_t b = 0; b < count; b += width)  // arrays are padded with inverse = 0
     for (int k = 0; k < width; ++k) {
-      const float z = (x * ys[b + k] - y * xs[b + k] - mean[b + k]) * inverse[b + k];
+      const float z = (x * ys[b + k] - y * xs[b + k] - mean[b + k]) * inverse[b + k] * here[b + k];
       part[k] += std::min(z * z, handedness_clip);
     }
   float sum = 0;
@@ -28,8 +29,9 @@ FOCAL_INLINE float handedness_body(float x, float y, const float* xs, const floa
   return sum;
 }
 FOCAL_MULTIVERSION(float handedness_cost(float x, float y, const float* xs, const float* ys,
-                                         const float* mean, const float* inverse, int32_t count),
-                   return handedness_body(x, y, xs, ys, mean, inverse, count);)
+                                         const float* mean, const float* inverse, const float* here,
+                                         int32_t count),
+                   return handedness_body(x, y, xs, ys, mean, inverse, here, count);)
 
 // Statistics laid out for the inner loop: rows padded to a multiple of 16, inverse deviations, zero where two of the
 // three landmarks are the same.
@@ -65,7 +67,8 @@ class Descent {
         xs_(RowMatrixf::Zero(tables.L, tables.padded)),
         ys_(xs_),
         row_x_(tables.padded),
-        row_y_(tables.padded) {
+        row_y_(tables.padded),
+        here_(tables.padded, 0) {
     const double others = std::max(1, t_.L - 1);
     unary_ = static_cast<float>(params.unary_weight);
     pair_ = static_cast<float>(params.pair_weight / others);
@@ -74,6 +77,8 @@ class Descent {
 
   void choose(int32_t l, int32_t candidate) {
     chosen_[l] = candidate;
+    here_[l] = candidate >= 0;
+    if (candidate < 0) return;
     for (int32_t o = 0; o < t_.L; ++o) {
       if (chosen_[o] < 0) continue;
       xs_(o, l) = c_.directions.x(chosen_[o], candidate), ys_(o, l) = c_.directions.y(chosen_[o], candidate);
@@ -95,10 +100,10 @@ class Descent {
       // At l, from o round to every b (each pair counted twice: halved); at o, from l round to every b.
       const size_t at_l = t_.row(l, o), at_o = t_.row(o, l);
       triples += 0.5f * handedness_cost(row_x_[o], row_y_[o], row_x_.data(), row_y_.data(), &t_.mean[at_l],
-                                        &t_.inverse[at_l], t_.padded);
+                                        &t_.inverse[at_l], here_.data(), t_.padded);
       triples +=
           handedness_cost(c_.directions.x(chosen_[o], candidate), c_.directions.y(chosen_[o], candidate),
-                          &xs_(o, 0), &ys_(o, 0), &t_.mean[at_o], &t_.inverse[at_o], t_.padded);
+                          &xs_(o, 0), &ys_(o, 0), &t_.mean[at_o], &t_.inverse[at_o], here_.data(), t_.padded);
     }
     return unary_ * c_.unary[candidate] + pair_ * pairs + handedness_ * triples;
   }
@@ -116,27 +121,46 @@ class Descent {
   double energy() {  // each term once
     double sum = 0;
     for (int32_t l = 0; l < t_.L; ++l) {
-      if (chosen_[l] < 0) continue;
+      if (chosen_[l] < 0) {
+        if (c_.start[l] < c_.start[l + 1]) sum += absent_cost_;
+        continue;
+      }
       sum += unary_ * c_.unary[chosen_[l]];
       for (int32_t o = 0; o < t_.L; ++o) {
         if (o == l || chosen_[o] < 0) continue;
         if (o < l) sum += pair_ * pair_cost(l, chosen_[l], o);
         sum += 0.5 * handedness_ *
                handedness_cost(xs_(l, o), ys_(l, o), &xs_(l, 0), &ys_(l, 0), &t_.mean[t_.row(l, o)],
-                               &t_.inverse[t_.row(l, o)], t_.padded);
+                               &t_.inverse[t_.row(l, o)], here_.data(), t_.padded);
       }
     }
     return sum;
   }
 
-  float residual(int32_t l) const {
+  float residual(int32_t l, int32_t candidate) const {
     float sum = 0;
     int32_t count = 0;
     for (int32_t o = 0; o < t_.L; ++o)
-      if (o != l && chosen_[o] >= 0 && chosen_[l] >= 0) sum += pair_cost(l, chosen_[l], o), ++count;
+      if (o != l && chosen_[o] >= 0 && candidate >= 0) sum += pair_cost(l, candidate, o), ++count;
     return count ? sum / static_cast<float>(count) : 0;
   }
   const std::vector<int32_t>& chosen() const { return chosen_; }
+  void allow_absence(double cost) { absent_cost_ = static_cast<float>(cost); }
+
+  struct Option {
+    int32_t candidate = -1;
+    float cost = std::numeric_limits<float>::infinity();
+  };
+  // The candidate that fits the others best, also of a landmark that is left out.
+  Option best_option(int32_t l) {
+    Option best;
+    if (chosen_[l] >= 0) best = {chosen_[l], cost(l, chosen_[l]) - least_gain};
+    for (int32_t k = c_.start[l]; k < c_.start[l + 1]; ++k) {
+      if (k == chosen_[l]) continue;
+      if (const float next = cost(l, k); next < best.cost) best = {k, next};
+    }
+    return best;
+  }
 
  private:
   float pair_cost(int32_t l, int32_t candidate, int32_t o) const {
@@ -145,26 +169,20 @@ class Descent {
   }
 
   bool improve(int32_t l) {
-    const int32_t current = chosen_[l];
-    if (current < 0) return false;
-    float best = cost(l, current) - 1e-5f;  // a move must gain more than rounding
-    int32_t best_candidate = current;
-    for (int32_t k = c_.start[l]; k < c_.start[l + 1]; ++k) {
-      if (k == current) continue;
-      const float next = cost(l, k);
-      if (next < best) best = next, best_candidate = k;
-    }
-    if (best_candidate == current) return false;
-    choose(l, best_candidate);
+    const Option option = best_option(l);
+    const int32_t best = option.cost < absent_cost_ ? option.candidate : -1;
+    if (best == chosen_[l]) return false;
+    choose(l, best);
     return true;
   }
 
   const Tables& t_;
   const ConstellationCandidates& c_;
   float unary_, pair_, handedness_;
+  float absent_cost_ = std::numeric_limits<float>::infinity();
   std::vector<int32_t> chosen_;
   RowMatrixf xs_, ys_;  // [at l][to o], chosen ones only
-  std::vector<float> row_x_, row_y_;
+  std::vector<float> row_x_, row_y_, here_;
 };
 
 }  // namespace
@@ -183,9 +201,15 @@ ConstellationChoice choose_constellation(const ConstellationStatistics& statisti
         descent.choose(l, candidates.start[l] + static_cast<int32_t>(r ? random.below(options) : 0));
     }
     descent.run(random);
-    results[r].energy = descent.energy();
-    results[r].candidate = descent.chosen();
-    for (int32_t l = 0; l < tables.L; ++l) results[r].residual.push_back(descent.residual(l));
+    descent.allow_absence(params.absent_cost);  // only now: at first everything is out of place
+    descent.run(random);
+    ConstellationChoice& result = results[r];
+    result.energy = descent.energy();
+    for (int32_t l = 0; l < tables.L; ++l) {
+      result.left_out.push_back(descent.chosen()[l] < 0);
+      result.candidate.push_back(descent.best_option(l).candidate);
+      result.residual.push_back(descent.residual(l, result.candidate[l]));
+    }
   });
   return *std::min_element(results.begin(), results.end(),
                            [](const auto& a, const auto& b) { return a.energy < b.energy; });

@@ -52,14 +52,19 @@ struct ConstellationCandidates {
 
 struct ConstellationParams {
   double unary_weight = 5, pair_weight = 4, handedness_weight = 2;
+  double absent_cost =
+      7;  // of leaving a landmark out, against all that a place costs; chosen as detection's others
   int32_t restarts = 32;
   uint64_t seed = 0;
 };
 
 struct ConstellationChoice {
   std::vector<int32_t> candidate;  // one a landmark; -1 when it has none
+  std::vector<char>
+      left_out;  // per landmark: its candidate is the best that there is, but none suits the others
   double energy = 0;
-  std::vector<float> residual;  // per landmark: mean clipped squared pairwise deviation, 0 is perfect
+  std::vector<float>
+      residual;  // per landmark: mean clipped squared deviation from those not left out, 0 is perfect
 };
 
 ConstellationChoice choose_constellation(const ConstellationStatistics& statistics,

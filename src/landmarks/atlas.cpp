@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "mesh/nearest_vertex.h"
@@ -10,7 +11,6 @@ namespace focal {
 namespace {
 
 constexpr int32_t remembered_points = 800;  // of a training shape; 500 measured a tenth worse
-constexpr int32_t spread_targets = 1000;    // vertices that stand for all of them until the last round
 
 MatrixX3 rows_of(const MatrixX3& positions, const std::vector<int32_t>& rows) {
   MatrixX3 result(rows.size(), 3);
@@ -82,27 +82,31 @@ class EmbeddedSurface {
   const Eigen::MatrixXf& C_;
 };
 
-// Where each remembered point starts: at the vertex with the most similar distances to the landmarks of both.
+// Where each remembered point starts: at the spread vertex with the most similar distances to the landmarks of both.
 std::vector<int32_t> first_images(const AtlasShape& shape, float reach, const std::vector<int32_t>& landmark,
-                                  const RowMatrixf& fields) {
+                                  const RowMatrixf& fields, const std::vector<int32_t>& spread) {
   std::vector<Eigen::Index> shared;
   for (size_t p = 0; p < landmark.size(); ++p)
     if (shape.marked[landmark[p]]) shared.push_back(static_cast<Eigen::Index>(p));
-  RowMatrixf there(shape.distances.rows(), shared.size()), here(fields.cols(), shared.size());
+  RowMatrixf there(shape.distances.rows(), shared.size()), here(spread.size(), shared.size());
   for (size_t s = 0; s < shared.size(); ++s) {
-    here.col(s) = fields.row(shared[s]).transpose();
+    for (size_t i = 0; i < spread.size(); ++i) here(i, s) = fields(shared[s], spread[i]);
     there.col(s) = shape.distances.col(landmark[shared[s]]).cast<float>() * (reach / target_steps);
   }
-  return nearest_rows(there, here);
+  std::vector<int32_t> images = nearest_rows(there, here);
+  for (int32_t& i : images) i = spread[i];
+  images.resize(shape.samples.Phi.rows(), 0);  // the marks follow, without weight
+  return images;
 }
 
 CarriedMarks carry(const AtlasShape& shape, std::vector<int32_t> images, const SurfaceAnalysis& analysis,
                    const SpectralTargets& targets, const std::vector<std::vector<int32_t>>& triangles_at,
                    const MapParams& params) {
   const auto L = static_cast<int32_t>(shape.marked.size());
-  const auto points = static_cast<int32_t>(images.size());
-  images.resize(points + L, 0);  // the marks follow, without weight
-  const FunctionalMap map = zoom_out(shape.samples, targets, std::move(images), params);
+  const auto points = static_cast<int32_t>(shape.distances.rows());
+  MapParams exact_marks = params;
+  exact_marks.exact_from = points;
+  const FunctionalMap map = zoom_out(shape.samples, targets, std::move(images), exact_marks);
   const EmbeddedSurface embedded(analysis.surface(), targets.Phi, map.C);
   CarriedMarks result;
   result.residual = map.residual;
@@ -114,9 +118,35 @@ CarriedMarks carry(const AtlasShape& shape, std::vector<int32_t> images, const S
   return result;
 }
 
-SpectralTargets spectral_targets(const SurfaceAnalysis& analysis) {
+// A shape and where its points start from on the new surface.
+struct Start {
+  int32_t shape = 0;
+  std::vector<int32_t> images;
+  float residual = 0;  // of the coarse map
+};
+
+// The few whose coarse maps fit best; the maps go on from there.
+std::vector<Start> most_alike(std::vector<Start> starts, const std::vector<AtlasShape>& atlas,
+                              const SpectralTargets& targets, const CarryParams& params,
+                              const Execution& execution) {
+  const MapParams coarse{.first = params.map.first,
+                         .last = params.map.first,
+                         .step = 4,
+                         .exact_from = std::numeric_limits<int32_t>::max()};
+  parallel_for(execution, static_cast<int64_t>(starts.size()), [&](int64_t i) {
+    Start& start = starts[i];
+    FunctionalMap map = zoom_out(atlas[start.shape].samples, targets, std::move(start.images), coarse);
+    start.images = std::move(map.image), start.residual = map.residual;
+  });
+  std::stable_sort(starts.begin(), starts.end(),
+                   [](const Start& a, const Start& b) { return a.residual < b.residual; });
+  starts.resize(params.most_alike);
+  return starts;
+}
+
+SpectralTargets spectral_targets(const SurfaceAnalysis& analysis, int32_t spread) {
   // The samples are drawn by number: unlike farthest points, of which many are ties, they stay when the mesh is moved.
-  const auto count = std::min<size_t>(analysis.samples.size(), spread_targets);
+  const auto count = std::min<size_t>(analysis.samples.size(), spread);
   return {analysis.eigenfunctions, {analysis.samples.begin(), analysis.samples.begin() + count}};
 }
 
@@ -155,16 +185,22 @@ AtlasShape remember_shape(const SurfaceAnalysis& analysis,
 
 std::vector<CarriedMarks> carry_marks(const std::vector<AtlasShape>& atlas, float reach,
                                       const SurfaceAnalysis& analysis, const std::vector<int32_t>& landmark,
-                                      const RowMatrixf& fields, const MapParams& params,
+                                      const RowMatrixf& fields, const CarryParams& params,
                                       const Execution& execution) {
-  const SpectralTargets targets = spectral_targets(analysis);
+  const SpectralTargets targets = spectral_targets(analysis, params.spread);
   std::vector<std::vector<int32_t>> triangles_at(analysis.surface().vertex_count());
   for (int32_t t = 0; t < analysis.surface().triangle_count(); ++t)
     for (int i = 0; i < 3; ++i) triangles_at[analysis.surface().triangles(t, i)].push_back(t);
-  std::vector<CarriedMarks> result(atlas.size());
+  std::vector<Start> starts(atlas.size());
   parallel_for(execution, static_cast<int64_t>(atlas.size()), [&](int64_t s) {
-    result[s] = carry(atlas[s], first_images(atlas[s], reach, landmark, fields), analysis, targets,
-                      triangles_at, params);
+    starts[s] = {static_cast<int32_t>(s), first_images(atlas[s], reach, landmark, fields, targets.spread)};
+  });
+  if (params.most_alike > 0 && params.most_alike < static_cast<int32_t>(starts.size()))
+    starts = most_alike(std::move(starts), atlas, targets, params, execution);
+  std::vector<CarriedMarks> result(starts.size());
+  parallel_for(execution, static_cast<int64_t>(starts.size()), [&](int64_t i) {
+    result[i] = carry(atlas[starts[i].shape], std::move(starts[i].images), analysis, targets, triangles_at,
+                      params.map);
   });
   return result;
 }

@@ -21,10 +21,17 @@ struct CarriedMarks {
   float residual = 0;                              // of the map: small where the shapes are alike
 };
 
+struct CarryParams {
+  MapParams map;
+  int32_t spread = 1000;   // vertices that stand for all of them until the last round
+  int32_t most_alike = 0;  // carry from so many shapes only, those whose coarse maps fit best; 0: from all
+};
+
 // landmark: those placed so far, which the maps start from; fields: the distances of all vertices from them, in this order.
+// One entry a shape that was carried from.
 std::vector<CarriedMarks> carry_marks(const std::vector<AtlasShape>& atlas, float reach,
                                       const SurfaceAnalysis& analysis, const std::vector<int32_t>& landmark,
-                                      const RowMatrixf& fields, const MapParams& params,
+                                      const RowMatrixf& fields, const CarryParams& params,
                                       const Execution& execution);
 
 }  // namespace focal

@@ -73,7 +73,8 @@ Features features_of(const Calibration& calibration, int32_t landmark, const Evi
           mapped ? length_feature(e.spread) : calibration.typical_length[0],
           mapped ? length_feature(e.gap) : calibration.typical_length[1],
           std::exp(-std::clamp(e.border, 0.0f, 1.0f) / 0.05f),
-          static_cast<float>(std::clamp(mesh, -12.0, 4.0) / 4)};
+          static_cast<float>(std::clamp(mesh, -12.0, 4.0) / 4),
+          e.left_out ? 1.0f : 0.0f};
 }
 
 double weighted(const float* weight, const Features& x) {

@@ -13,7 +13,8 @@ namespace focal {
 namespace {
 
 // All chosen by cross-validation on training splits of nine categories; the errors are flat round them.
-constexpr MapParams map_params{.first = 20, .last = 120, .step = 8};
+constexpr CarryParams thorough{.map = {.first = 20, .last = 120, .step = 8}, .most_alike = 0};
+constexpr CarryParams quick{.map = {.first = 20, .last = 120, .step = 20}, .spread = 600, .most_alike = 3};
 constexpr double alike_falloff = 30;       // a map counts exp(-falloff (residual - least residual))
 constexpr double outlier_distance = 0.03;  // of sqrt(area): marks farther from the consensus count less
 constexpr int rounds = 8;                  // of reweighting
@@ -66,13 +67,14 @@ std::vector<double> weights_of(const std::vector<CarriedMarks>& carried) {
   return weights;
 }
 
-// The landmark's own place, as one more shape of mean weight, and its marks on the training shapes.
-std::vector<Opinion> opinions_on(int32_t landmark, const SurfacePoint& own, const TriangleMesh& surface,
-                                 const std::vector<CarriedMarks>& carried,
+// The landmark's own place, as one more shape of mean weight, and its marks on the training shapes. own_share: of that
+// weight, which counts.
+std::vector<Opinion> opinions_on(int32_t landmark, const SurfacePoint& own, double own_share,
+                                 const TriangleMesh& surface, const std::vector<CarriedMarks>& carried,
                                  const std::vector<double>& weights) {
   const double mean =
       std::accumulate(weights.begin(), weights.end(), 0.0) / static_cast<double>(weights.size());
-  std::vector<Opinion> opinions = {{position_of(surface, own), mean, own.triangle}};
+  std::vector<Opinion> opinions = {{position_of(surface, own), own_share * mean, own.triangle}};
   for (size_t s = 0; s < carried.size(); ++s)
     if (const auto& point = carried[s].point[landmark])
       opinions.push_back({position_of(surface, *point), weights[s], point->triangle});
@@ -87,28 +89,36 @@ int32_t nearest_corner(const TriangleMesh& surface, const SurfacePoint& point) {
 
 }  // namespace
 
-void join_carried_marks(const LandmarkModel& model, const SurfaceAnalysis& analysis, Placement& placement,
-                        const Execution& execution) {
-  std::vector<int32_t> placed;
-  std::vector<SurfacePoint> places;
-  for (size_t l = 0; l < placement.vertex.size(); ++l)
-    if (placement.vertex[l] >= 0)
-      placed.push_back(static_cast<int32_t>(l)), places.push_back(placement.point[l]);
-  if (placed.size() < 3) return;  // too few to start a map from
-  const auto carried = carry_marks(model.atlas, model.reach, analysis, placed,
-                                   analysis.heat.distances(places, execution), map_params, execution);
+void join_carried_marks(const LandmarkModel& model, const SurfaceAnalysis& analysis, Quality quality,
+                        Placement& placement, const Execution& execution) {
+  const bool best = quality == Quality::best;
+  std::vector<int32_t> placed, trusted;
+  std::vector<SurfacePoint> starts;
+  for (size_t l = 0; l < placement.vertex.size(); ++l) {
+    if (placement.vertex[l] < 0) continue;
+    placed.push_back(static_cast<int32_t>(l));
+    if (placement.evidence[l].left_out) continue;
+    trusted.push_back(static_cast<int32_t>(l)), starts.push_back(placement.point[l]);
+  }
+  if (trusted.size() < 3) return;  // too few to start a map from
+  const auto carried =
+      carry_marks(model.atlas, model.reach, analysis, trusted, analysis.heat.distances(starts, execution),
+                  best ? thorough : quick, execution);
   for (const auto& shape : carried)
-    placement.map_residual += shape.residual / static_cast<float>(carried.size());
+    if (best) placement.map_residual += shape.residual / static_cast<float>(carried.size());
   const std::vector<double> weights = weights_of(carried);
   const TriangleMesh& surface = analysis.surface();
   const MatrixX3 normals = face_normals(surface);
   std::vector<SurfaceQuery> queries;
   for (size_t p = 0; p < placed.size(); ++p) {
-    const auto opinions = opinions_on(placed[p], places[p], surface, carried, weights);
-    const Consensus consensus = consensus_of(opinions);
     Evidence& evidence = placement.evidence[placed[p]];
-    evidence.spread = static_cast<float>(consensus.spread);
-    evidence.gap = static_cast<float>((consensus.position - opinions[0].position).norm());
+    const auto opinions = opinions_on(placed[p], placement.point[placed[p]], evidence.left_out ? 1e-3 : 1,
+                                      surface, carried, weights);
+    const Consensus consensus = consensus_of(opinions);
+    if (best) {  // what a few shapes say differs from what confidence was learned on
+      evidence.spread = static_cast<float>(consensus.spread);
+      evidence.gap = static_cast<float>((consensus.position - opinions[0].position).norm());
+    }
     queries.push_back({consensus.position, normals.row(consensus.triangle).transpose()});
   }
   const auto points = closest_points(surface, queries, 2 * analysis.operators.mean_edge);

@@ -7,9 +7,10 @@
 
 namespace focal {
 
+// `best` asks all training shapes, `interactive` a few, in fewer rounds; it leaves the evidence as it is.
 // Moves each placed landmark to where its own place and the marks carried over from all training shapes agree, and records
 // in its evidence how well they do.
-void join_carried_marks(const LandmarkModel& model, const SurfaceAnalysis& analysis, Placement& placement,
-                        const Execution& execution);
+void join_carried_marks(const LandmarkModel& model, const SurfaceAnalysis& analysis, Quality quality,
+                        Placement& placement, const Execution& execution);
 
 }  // namespace focal

@@ -16,7 +16,7 @@ inline constexpr uint16_t target_steps = 65534;    // target / target_steps * re
 
 // Turns how well a landmark fits into a probability; learned on shapes left out of the forest that judged them.
 struct Calibration {
-  static constexpr int32_t feature_count = 8;  // see landmarks/confidence.h
+  static constexpr int32_t feature_count = 9;  // see landmarks/confidence.h
   std::vector<float> typical_vote;       // per landmark: vote a sample at the true place, 0 when unknown
   float weight[feature_count + 1] = {};  // logistic regression: it lies where it should; the last is the bias
   float absent_weight[feature_count + 1] = {};  // likewise: it is not on this mesh at all

@@ -77,7 +77,8 @@ void record_evidence(const std::vector<std::vector<int32_t>>& peaks,
     evidence = {.vote_ratio = 1 - candidates.unary[choice.candidate[l]],
                 .residual = choice.residual[l],
                 .vote_level = vote / static_cast<float>(sample_count),
-                .rival = 0};
+                .rival = 0,
+                .left_out = choice.left_out[l] != 0};
     for (const int32_t other : peaks[l])
       if (other != v) {
         result.rival[l] = other;
@@ -133,8 +134,7 @@ Placement place_landmarks(const LandmarkModel& model, const SurfaceAnalysis& ana
   record_evidence(peaks, candidates, choice, samples, vertices, result);
   seconds.constellation += watch.lap();
   refine_placement(model.constellation, analysis, result, execution);
-  if (!model.atlas.empty() && params.quality == Quality::best)
-    join_carried_marks(model, analysis, result, execution);
+  if (!model.atlas.empty()) join_carried_marks(model, analysis, params.quality, result, execution);
   record_borders(analysis, result);
   seconds.refine += watch.lap();
   return result;

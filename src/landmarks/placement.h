@@ -17,6 +17,8 @@ struct Evidence {
   float border = 1;  // distance from the nearest long border that was closed, of sqrt(area); 1: far or none
   float spread = 0;  // of the marks carried over from the training shapes, of sqrt(area); 0 without maps
   float gap = 0;     // between the votes' place and where they agree, likewise
+  bool left_out =
+      false;  // it suits the other landmarks nowhere, see ConstellationChoice; no other is placed by it
 };
 
 struct Placement {

@@ -25,23 +25,26 @@ struct Region {
 };
 
 // fields: placed landmarks x vertices.
-Region region_of(const ConstellationStatistics& statistics, const RowMatrixf& votes, const RowMatrixf& fields,
-                 const std::vector<int32_t>& placed, size_t p) {
+Region region_of(const ConstellationStatistics& statistics, const Placement& placement,
+                 const RowMatrixf& fields, const std::vector<int32_t>& placed, size_t p) {
   const int32_t l = placed[p];
+  const RowMatrixf& votes = placement.votes;
+  std::vector<size_t> others;
+  for (size_t o = 0; o < placed.size(); ++o)
+    if (o != p && !placement.evidence[placed[o]].left_out) others.push_back(o);
   Region region;
   float largest = std::numeric_limits<float>::min();
   for (int32_t v = 0; v < fields.cols(); ++v)
     if (fields(p, v) < reach) region.vertex.push_back(v), largest = std::max(largest, votes(v, l));
   for (const int32_t v : region.vertex) {
     double deviation = 0;
-    for (size_t o = 0; o < placed.size(); ++o) {
-      if (o == p) continue;
+    for (const size_t o : others) {
       const double z =
           (fields(o, v) - statistics.distance_mean(l, placed[o])) / statistics.distance_sd(l, placed[o]);
       deviation += std::min(z * z / 2, deviation_clip);
     }
     region.cost.push_back(vote_weight * (1 - votes(v, l) / largest) +
-                          deviation / static_cast<double>(placed.size() - 1));
+                          deviation / static_cast<double>(std::max<size_t>(others.size(), 1)));
   }
   return region;
 }
@@ -88,7 +91,7 @@ void refine_placement(const ConstellationStatistics& statistics, const SurfaceAn
   for (int32_t round = 0; round < rounds; ++round) {
     const RowMatrixf fields = analysis.heat.distances(vertex, execution);
     parallel_for(execution, static_cast<int64_t>(placed.size()), [&](int64_t p) {
-      const Region region = region_of(statistics, placement.votes, fields, placed, static_cast<size_t>(p));
+      const Region region = region_of(statistics, placement, fields, placed, static_cast<size_t>(p));
       vertex[p] = region.best();
       if (round + 1 == rounds) placement.point[placed[p]] = mean_place(analysis, normals, region);
     });

@@ -19,6 +19,8 @@ namespace {
 
 constexpr double disc_radius = 0.04;  // of sqrt(area), as in detection
 constexpr int32_t folds = 3;          // of the cross-fitted confidence
+// Spoiled copies of every training shape, and samples of each. More copies help no more; their samples blur the whole ones'.
+constexpr int32_t spoiled_copies = 3, spoiled_samples = 1500;
 
 // What the training keeps of one shape.
 struct LearnedShape {
@@ -26,6 +28,18 @@ struct LearnedShape {
   std::vector<std::optional<SurfacePoint>> points;  // the marks, on the analysed surface
   RowMatrixf fields;                                // distances of all vertices from those that are there
   ConstellationSample constellation;
+};
+
+// A shape to learn from, or one to be judged on.
+struct Lesson {
+  MarkedShape shape;
+  SurfaceAnalysis analysis;
+  LearnedShape learned;
+};
+// One training shape, whole and spoiled.
+struct Lessons {
+  Lesson whole;
+  std::vector<Lesson> spoiled;
 };
 
 void validate(const TrainingSet& set, const TrainParams& params) {
@@ -96,20 +110,24 @@ LearnedShape learn_shape(const MarkedShape& shape, const SurfaceAnalysis& analys
   return result;
 }
 
-// Fills the parts of a `default` model that the given shapes teach: forest, targets, reach, constellation.
-void learn_parts(LandmarkModel& model, const std::vector<const SurfaceAnalysis*>& analyses,
-                 const std::vector<const LearnedShape*>& learned, const Execution& execution) {
+// Fills the parts of a `default` model that the given shapes teach: forest, targets, reach from all their copies;
+// constellation and atlas from the whole ones, which are what a category looks like.
+void learn_parts(LandmarkModel& model, const std::vector<const Lessons*>& shapes,
+                 const Execution& execution) {
+  std::vector<const Lesson*> lessons;
+  for (const auto* shape : shapes) lessons.push_back(&shape->whole);
+  for (const auto* shape : shapes)
+    for (const auto& copy : shape->spoiled) lessons.push_back(&copy);
   Eigen::Index rows = 0;
-  for (const auto* shape : learned) rows += shape->targets.rows();
+  for (const auto* lesson : lessons) rows += lesson->learned.targets.rows();
   const auto L = static_cast<Eigen::Index>(model.landmark_names.size());
-  RowMatrixf descriptors(rows, analyses[0]->descriptors.cols()), targets(rows, L);
-  std::vector<ConstellationSample> constellations;
+  RowMatrixf descriptors(rows, lessons[0]->analysis.descriptors.cols()), targets(rows, L);
   Eigen::Index row = 0;
-  for (size_t s = 0; s < learned.size(); ++s) {
-    descriptors.middleRows(row, learned[s]->targets.rows()) = analyses[s]->descriptors;
-    targets.middleRows(row, learned[s]->targets.rows()) = learned[s]->targets;
-    row += learned[s]->targets.rows();
-    constellations.push_back(learned[s]->constellation);
+  for (const auto* lesson : lessons) {
+    const auto& some = lesson->learned.targets;
+    descriptors.middleRows(row, some.rows()) = lesson->analysis.descriptors;
+    targets.middleRows(row, some.rows()) = some;
+    row += some.rows();
   }
   model.reach = 1.05f * targets.array().isNaN().select(0, targets).maxCoeff();
   model.targets.resize(rows, L);
@@ -125,10 +143,13 @@ void learn_parts(LandmarkModel& model, const std::vector<const SurfaceAnalysis*>
       if (missing) targets(s, l) = static_cast<float>(sum / count);  // has no say in where the trees split
     }
   }
+  std::vector<ConstellationSample> constellations;
+  for (const auto* shape : shapes) constellations.push_back(shape->whole.learned.constellation);
   model.constellation = learn_constellation(constellations, static_cast<int32_t>(L));
-  model.atlas.resize(learned.size());
-  parallel_for(execution, static_cast<int64_t>(learned.size()), [&](int64_t s) {
-    model.atlas[s] = remember_shape(*analyses[s], learned[s]->points, learned[s]->fields, model.reach);
+  model.atlas.resize(shapes.size());
+  parallel_for(execution, static_cast<int64_t>(shapes.size()), [&](int64_t s) {
+    const Lesson& whole = shapes[s]->whole;
+    model.atlas[s] = remember_shape(whole.analysis, whole.learned.points, whole.learned.fields, model.reach);
   });
   const ForestParams forest{.tree_count = model.params.tree_count,
                             .min_leaf_samples = model.params.min_leaf_samples,
@@ -139,9 +160,9 @@ void learn_parts(LandmarkModel& model, const std::vector<const SurfaceAnalysis*>
 }
 
 // The placements of one shape by a model that has not seen it, each with its error. id: another one for each mesh.
-void judge_shape(const LandmarkModel& model, const MarkedShape& shape, const SurfaceAnalysis& analysis,
-                 int32_t id, bool is_whole, std::vector<JudgedPlacement>& judged,
-                 const Execution& execution) {
+void judge_shape(const LandmarkModel& model, const Lesson& lesson, int32_t id, bool is_whole,
+                 std::vector<JudgedPlacement>& judged, const Execution& execution) {
+  const auto& [shape, analysis, learned] = lesson;
   const DetectParams detect;
   StageSeconds ignored;
   const auto limit =
@@ -153,27 +174,26 @@ void judge_shape(const LandmarkModel& model, const MarkedShape& shape, const Sur
     JudgedPlacement one{
         static_cast<int32_t>(l), id,      placement.evidence[l], 1, shape.marks[l].has_value(),
         placement.map_residual,  is_whole};
-    if (shape.marks[l]) {
-      const SurfacePoint truth = to_coarse(analysis.proxy, std::span(&*shape.marks[l], 1))[0];
+    if (const auto& truth = learned.points[l])
       one.error =
-          (position_of(analysis.surface(), placement.point[l]) - position_of(analysis.surface(), truth))
+          (position_of(analysis.surface(), placement.point[l]) - position_of(analysis.surface(), *truth))
               .norm();
-    }
     judged.push_back(one);
   }
 }
 
-// The same shape as a scanner spoils it, or with a part missing: what such meshes look like has to be learned too.
-std::optional<MarkedShape> spoiled(const MarkedShape& shape, bool cut, Random random) {
+// The same shape as a scanner spoils it (copy 0), or with a part missing: what such meshes look like has to be learned too.
+std::optional<MarkedShape> spoiled(const MarkedShape& shape, int32_t copy, Random random) {
   constexpr int32_t smallest = 100;  // vertices that make a shape still, when some have gone
   DamagedMesh damaged = undamaged(shape.mesh->surface, shape.marks);
-  if (cut) {
+  if (copy > 0) {
     std::vector<SurfacePoint> marks;
     for (const auto& mark : shape.marks)
       if (mark) marks.push_back(*mark);
     if (marks.empty()) return std::nullopt;
     const SurfacePoint& centre = marks[random.below(static_cast<uint32_t>(marks.size()))];
-    damaged = cut_ball(std::move(damaged), centre, 0.15 + 0.25 * random.uniform(), CutEnd::open);
+    damaged = cut_ball(std::move(damaged), centre, 0.15 + 0.25 * random.uniform(),
+                       copy == 1 ? CutEnd::open : CutEnd::capped);
   } else {
     damaged = with_holes(with_noise(std::move(damaged), 0.3 * random.uniform(), random), 20, 2, random);
   }
@@ -192,59 +212,64 @@ std::optional<MarkedShape> spoiled(const MarkedShape& shape, bool cut, Random ra
 
 // Places the landmarks of every shape, whole and spoiled, by a model that has not seen it, and learns from the outcome
 // how far to trust.
-Calibration cross_fit(const LandmarkModel& model, const TrainingSet& set,
-                      const std::vector<SurfaceAnalysis>& analyses, const std::vector<LearnedShape>& learned,
+Calibration cross_fit(const LandmarkModel& model, const std::vector<Lessons>& shapes,
                       const Execution& execution) {
-  const auto count = static_cast<int32_t>(set.shapes.size());
+  const auto count = static_cast<int32_t>(shapes.size());
   const int32_t used_folds = std::min(folds, count);
   std::vector<JudgedPlacement> judged;
   Random random(model.params.seed, 77);
   const auto order = sample_without_replacement(random, count, count);
   for (int32_t fold = 0; fold < used_folds; ++fold) {
-    execution.begin_stage("confidence", 0.5 + 0.5 * fold / used_folds, 0.5 + 0.5 * (fold + 1) / used_folds);
+    execution.begin_stage("confidence", 0.6 + 0.4 * fold / used_folds, 0.6 + 0.4 * (fold + 1) / used_folds);
     LandmarkModel part;
     part.landmark_names = model.landmark_names;
     part.params = model.params;
-    std::vector<const SurfaceAnalysis*> kept;
-    std::vector<const LearnedShape*> lessons;
+    std::vector<const Lessons*> kept;
     for (int32_t i = 0; i < count; ++i)
-      if (i % used_folds != fold) kept.push_back(&analyses[order[i]]), lessons.push_back(&learned[order[i]]);
-    learn_parts(part, kept, lessons, execution);
+      if (i % used_folds != fold) kept.push_back(&shapes[order[i]]);
+    learn_parts(part, kept, execution);
     for (int32_t i = fold; i < count; i += used_folds) {
-      const MarkedShape& shape = set.shapes[order[i]];
-      judge_shape(part, shape, analyses[order[i]], 3 * order[i], true, judged, execution);
-      for (int32_t kind = 1; kind <= 2; ++kind) {
-        const auto bad = spoiled(shape, kind == 2, Random(model.params.seed, 5000 + 3 * order[i] + kind));
-        if (!bad) continue;
-        judge_shape(part, *bad, analyse_for(model.params, bad->mesh, DetectParams{}, execution),
-                    3 * order[i] + kind, false, judged, execution);
-      }
+      const Lessons& left_out = shapes[order[i]];
+      int32_t id = (spoiled_copies + 1) * order[i];
+      judge_shape(part, left_out.whole, id, true, judged, execution);
+      for (const Lesson& copy : left_out.spoiled) judge_shape(part, copy, ++id, false, judged, execution);
       execution.report(static_cast<double>(i + 1) / count);
     }
   }
   return calibrate(judged, static_cast<int32_t>(model.landmark_names.size()));
 }
 
-std::vector<SurfaceAnalysis> analyse_all(const TrainingSet& set, const TrainParams& params,
-                                         const Execution& execution) {
-  std::vector<SurfaceAnalysis> analyses(set.shapes.size());
-  execution.begin_stage("analysis", 0, 0.2);
+Lesson make_lesson(MarkedShape shape, const AnalysisParams& how, const Execution& execution) {
+  Lesson lesson{std::move(shape), {}, {}};
+  lesson.analysis = analyse_surface(lesson.shape.mesh, how, execution);
+  return lesson;
+}
+
+std::vector<Lessons> make_lessons(const TrainingSet& set, const TrainParams& params,
+                                  const Execution& execution) {
+  const bool paper = params.preset == Preset::paper;
+  const int32_t copies = paper ? 1 : 1 + spoiled_copies;
+  std::vector<Lessons> shapes(set.shapes.size());
+  std::vector<std::optional<Lesson>> spoiled_lessons(set.shapes.size() * copies);
+  execution.begin_stage("analysis", 0, 0.3);
   std::atomic<int32_t> done{0};
-  parallel_for(execution, static_cast<int64_t>(set.shapes.size()), [&](int64_t s) {
+  parallel_for(execution, static_cast<int64_t>(spoiled_lessons.size()), [&](int64_t i) {
+    const int64_t s = i / copies;
+    const auto copy = static_cast<int32_t>(i % copies);
     AnalysisParams how = analysis_params_of(params);
     how.sampling_rate = params.sampling_rate, how.max_samples = params.max_samples_per_shape;
     how.seed = params.seed, how.stream = static_cast<uint64_t>(s);
-    analyses[s] = analyse_surface(set.shapes[s].mesh, how, execution.inner());
-    execution.report(static_cast<double>(++done) / static_cast<double>(analyses.size()));
+    if (copy == 0) {
+      shapes[s].whole = make_lesson(set.shapes[s], how, execution.inner());
+    } else if (auto bad = spoiled(set.shapes[s], copy - 1, Random(params.seed, 5000 + i))) {
+      how.max_samples = std::min(how.max_samples, spoiled_samples);
+      spoiled_lessons[i] = make_lesson(*std::move(bad), how, execution.inner());
+    }
+    execution.report(static_cast<double>(++done) / static_cast<double>(spoiled_lessons.size()));
   });
-  return analyses;
-}
-
-template <class T>
-std::vector<const T*> pointers(const std::vector<T>& values) {
-  std::vector<const T*> result;
-  for (const T& value : values) result.push_back(&value);
-  return result;
+  for (size_t i = 0; i < spoiled_lessons.size(); ++i)
+    if (spoiled_lessons[i]) shapes[i / copies].spoiled.push_back(*std::move(spoiled_lessons[i]));
+  return shapes;
 }
 
 }  // namespace
@@ -258,19 +283,24 @@ LandmarkModel train(const TrainingSet& set, const TrainParams& params, const Exe
   int64_t vertices = 0;
   for (const auto& shape : set.shapes) vertices += shape.mesh->surface.vertex_count();
   model.mean_vertex_count = static_cast<int32_t>(vertices / model.shape_count);
-  const std::vector<SurfaceAnalysis> analyses = analyse_all(set, params, execution);
+  std::vector<Lessons> shapes = make_lessons(set, params, execution);
   model.calibration.typical_vote.assign(set.landmark_names.size(), 0);
   if (params.preset == Preset::paper) {
+    std::vector<SurfaceAnalysis> analyses;
+    for (auto& shape : shapes) analyses.push_back(std::move(shape.whole.analysis));
     train_paper_forests(model, set, analyses, execution);
     return model;
   }
-  execution.begin_stage("distances", 0.2, 0.25);
-  std::vector<LearnedShape> learned;
-  for (size_t s = 0; s < set.shapes.size(); ++s)
-    learned.push_back(learn_shape(set.shapes[s], analyses[s], execution));
-  execution.begin_stage("forest", 0.25, 0.5);
-  learn_parts(model, pointers(analyses), pointers(learned), execution);
-  model.calibration = cross_fit(model, set, analyses, learned, execution);
+  execution.begin_stage("distances", 0.3, 0.35);
+  for (auto& shape : shapes) {
+    shape.whole.learned = learn_shape(shape.whole.shape, shape.whole.analysis, execution);
+    for (auto& copy : shape.spoiled) copy.learned = learn_shape(copy.shape, copy.analysis, execution);
+  }
+  execution.begin_stage("forest", 0.35, 0.6);
+  std::vector<const Lessons*> all;
+  for (const auto& shape : shapes) all.push_back(&shape);
+  learn_parts(model, all, execution);
+  if (params.learns_confidence) model.calibration = cross_fit(model, shapes, execution);
   return model;
 }
 

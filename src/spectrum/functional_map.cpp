@@ -94,7 +94,7 @@ class NearestSearch {
   AlignedArray<int32_t> best_block_;
 };
 
-RowMatrixf padded_rows(const RowMatrixf& rows) {
+RowMatrixf padded_rows(const Eigen::Ref<const RowMatrixf, 0, Eigen::OuterStride<>>& rows) {
   RowMatrixf result = RowMatrixf::Zero(round_up(rows.rows(), tile), rows.cols());
   result.topRows(rows.rows()) = rows;
   return result;
@@ -103,29 +103,33 @@ RowMatrixf padded_rows(const RowMatrixf& rows) {
 // One map in the making.
 class ZoomOut {
  public:
-  ZoomOut(const SpectralSamples& from, const SpectralTargets& to, std::vector<int32_t> initial)
+  ZoomOut(const SpectralSamples& from, const SpectralTargets& to, std::vector<int32_t> initial,
+          const MapParams& params)
       : from_(from),
         to_(to),
-        points_(padded_rows(from.Phi)),
-        weighted_(RowMatrixf::Zero(points_.rows(), points_.cols())),
-        spread_(static_cast<int64_t>(to.spread.size()), to.Phi.cols(),
-                [&](int64_t i) { return to.Phi.row(to.spread[i]).data(); }),
-        all_(to.Phi.rows(), to.Phi.cols(), [&](int64_t i) { return to.Phi.row(i).data(); }) {
-    weighted_.topRows(from.Phi.rows()) = from.weight.asDiagonal() * from.Phi;
-    gram_ = Eigen::LLT<Eigen::MatrixXf>(from.Phi.transpose() * weighted_.topRows(from.Phi.rows())).matrixL();
+        params_(params),
+        most_(std::min({int64_t{params.last}, int64_t{from.Phi.cols()}, int64_t{to.Phi.cols()}}) / tile *
+              tile),
+        points_(padded_rows(from.Phi.leftCols(most_))),
+        weighted_(RowMatrixf::Zero(points_.rows(), most_)),
+        spread_(static_cast<int64_t>(to.spread.size()), most_,
+                [&](int64_t i) { return to.Phi.row(to.spread[i]).data(); }) {
+    const auto known = from.Phi.rows();
+    weighted_.topRows(known) = from.weight.asDiagonal() * points_.topRows(known);
+    gram_ = Eigen::LLT<Eigen::MatrixXf>(points_.transpose() * weighted_).matrixL();
     map_.image = std::move(initial);
   }
 
-  FunctionalMap run(const MapParams& params) {
-    const auto most =
-        static_cast<int32_t>(std::min({Eigen::Index{params.last}, points_.cols(), to_.Phi.cols()}) / 4 * 4);
-    for (int32_t k = std::min(params.first, most);; k = std::min(k + params.step, most)) {
+  FunctionalMap run() {
+    const auto most = static_cast<int32_t>(most_);
+    for (int32_t k = std::min(params_.first, most);; k = std::min(k + params_.step, most)) {
       fit(k);
-      const bool last = k == most;
-      assign(last ? all_ : spread_, k);
-      if (last) break;
-      for (int32_t& i : map_.image) i = to_.spread[i];
+      if (k == most) break;
+      assign_spread(k);
     }
+    const int64_t exact = std::min<int64_t>(params_.exact_from, from_.Phi.rows()) / tile * tile;
+    if (exact > 0) assign_spread(most);
+    if (exact < from_.Phi.rows()) assign_all(most, exact);
     measure();
     return std::move(map_);
   }
@@ -152,18 +156,29 @@ class ZoomOut {
     L.transpose().solveInPlace(map_.C);
   }
 
-  void assign(const RowBlocks& targets, int32_t k) {
-    NearestSearch search(static_cast<int64_t>(map_.image.size()));
+  void assign_spread(int32_t k) {
+    map_.image = nearest(spread_, static_cast<int32_t>(to_.spread.size()), k, 0);
+    for (int32_t& i : map_.image) i = to_.spread[i];
+  }
+
+  void assign_all(int32_t k, int64_t first) {
+    const RowBlocks all(to_.Phi.rows(), k, [&](int64_t i) { return to_.Phi.row(i).data(); });
+    const auto images = nearest(all, static_cast<int32_t>(to_.Phi.rows()), k, first);
+    std::copy(images.begin(), images.end(), map_.image.begin() + first);
+  }
+
+  // Of each point from `first` on, the number of the target that is nearest in the embedding of the points.
+  std::vector<int32_t> nearest(const RowBlocks& targets, int32_t count, int32_t k, int64_t first) const {
+    NearestSearch search(from_.Phi.rows() - first);
     const RowMatrixf C = map_.C;
     AlignedArray<float> moved(static_cast<size_t>(k) * lanes);
     for (int64_t b = 0; b < targets.blocks(); ++b) {
       std::fill_n(moved.data(), moved.size(), 0.0f);
       multiply_add({C.data(), k, 1}, k, k, targets.block(b), moved.data());
-      search.look_at({points_.data(), points_.cols(), 1}, k, moved.data(), static_cast<int32_t>(b));
+      search.look_at({points_.row(first).data(), points_.cols(), 1}, k, moved.data(),
+                     static_cast<int32_t>(b));
     }
-    const bool all = &targets == &all_;
-    map_.image =
-        search.result(static_cast<int32_t>(all ? to_.Phi.rows() : Eigen::Index(to_.spread.size())) - 1);
+    return search.result(count - 1);
   }
 
   void measure() {
@@ -179,8 +194,10 @@ class ZoomOut {
 
   const SpectralSamples& from_;
   const SpectralTargets& to_;
+  const MapParams& params_;
+  int64_t most_;  // eigenfunctions of the last round
   RowMatrixf points_, weighted_;
-  RowBlocks spread_, all_;
+  RowBlocks spread_;
   Eigen::MatrixXf gram_;
   FunctionalMap map_;
 };
@@ -189,7 +206,7 @@ class ZoomOut {
 
 FunctionalMap zoom_out(const SpectralSamples& from, const SpectralTargets& to, std::vector<int32_t> initial,
                        const MapParams& params) {
-  return ZoomOut(from, to, std::move(initial)).run(params);
+  return ZoomOut(from, to, std::move(initial), params).run();
 }
 
 std::vector<int32_t> nearest_rows(const RowMatrixf& places, const RowMatrixf& targets) {

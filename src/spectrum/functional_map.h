@@ -24,7 +24,9 @@ struct SpectralTargets {
 };
 
 struct MapParams {
-  int32_t first = 20, last = 120, step = 20;  // eigenfunctions used, from round to round
+  int32_t first = 20, last = 120, step = 20;  // eigenfunctions used, from round to round; multiples of 4
+  // In the last round, points from this one on lie at the nearest of all targets, those before it still at spread ones.
+  int32_t exact_from = 0;
 };
 
 // Phi_from C is about Phi_to at the images; Phi_to C^T carries the targets into the embedding of `from`, where points are

@@ -23,6 +23,12 @@ nlohmann::json json_of(const fs::path& path) {
   return nlohmann::json::parse(file);
 }
 
+std::optional<fs::path> folder_of(const std::string& name) {
+  const char* data = std::getenv("FOCAL_EVALUATION_DATA");
+  if (!data || !fs::exists(fs::path(data) / name / "set.json")) return std::nullopt;
+  return fs::path(data) / name;
+}
+
 MarkedShape marked_mesh(const fs::path& folder, const std::string& name,
                         const std::vector<std::string>& names) {
   MarkedShape shape{std::make_shared<PreparedMesh>(prepare(read_gltf(folder / (name + ".glb")).mesh)), {}};
@@ -69,16 +75,23 @@ MarkedShape resized_shape(const creatures::Character& character, int32_t vertex_
 
 }  // namespace
 
+std::optional<MarkedSet> marked_set(const std::string& name) {
+  const auto folder = folder_of(name);
+  if (!folder) return std::nullopt;
+  const auto about = json_of(*folder / "set.json");
+  MarkedSet set;
+  set.name = name;
+  const auto& names = set.training.landmark_names = about["landmark_names"].get<std::vector<std::string>>();
+  for (const auto& mesh : about["train"]) set.training.shapes.push_back(marked_mesh(*folder, mesh, names));
+  set.test_names = about["test"].get<std::vector<std::string>>();
+  for (const auto& mesh : set.test_names) set.test.push_back(marked_mesh(*folder, mesh, names));
+  return set;
+}
+
 std::optional<Subject> real_set(const std::string& name) {
-  const char* data = std::getenv("FOCAL_EVALUATION_DATA");
-  if (!data || !fs::exists(fs::path(data) / name / "set.json")) return std::nullopt;
-  const fs::path folder = fs::path(data) / name;
-  const auto set = json_of(folder / "set.json");
-  Subject subject;
-  subject.training.landmark_names = set["landmark_names"].get<std::vector<std::string>>();
-  for (const auto& mesh : set["train"])
-    subject.training.shapes.push_back(marked_mesh(folder, mesh, subject.training.landmark_names));
-  subject.test = read_gltf(folder / (set["test"][0].get<std::string>() + ".glb")).mesh;
+  auto set = marked_set(name);
+  if (!set) return std::nullopt;
+  Subject subject{name, std::move(set->training), set->test[0].mesh->source};
   subject.name = title(name, subject);
   return subject;
 }

@@ -16,6 +16,15 @@ struct Subject {
   focal::TriangleMesh test;  // not trained on; as a host would give it
 };
 
+// A set with the marks of its test split.
+struct MarkedSet {
+  std::string name;
+  focal::TrainingSet training;
+  std::vector<std::string> test_names;
+  std::vector<focal::MarkedShape> test;
+};
+std::optional<MarkedSet> marked_set(const std::string& name);
+
 // The set of that name in the folder $FOCAL_EVALUATION_DATA.
 std::optional<Subject> real_set(const std::string& name);
 
