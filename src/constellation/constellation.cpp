@@ -185,11 +185,22 @@ class Descent {
   std::vector<float> row_x_, row_y_, here_;
 };
 
+// Whether three quarters of the landmarks lie at about the same place.
+bool is_like(const ConstellationChoice& a, const ConstellationChoice& b,
+             const ConstellationCandidates& candidates) {
+  constexpr float elsewhere = 0.1f;  // of sqrt(area)
+  size_t differing = 0;
+  for (size_t l = 0; l < a.candidate.size(); ++l)
+    differing += a.candidate[l] >= 0 && candidates.distance(a.candidate[l], b.candidate[l]) > elsewhere;
+  return 4 * differing < a.candidate.size();
+}
+
 }  // namespace
 
-ConstellationChoice choose_constellation(const ConstellationStatistics& statistics,
-                                         const ConstellationCandidates& candidates,
-                                         const ConstellationParams& params, const Execution& execution) {
+std::vector<ConstellationChoice> choose_constellations(const ConstellationStatistics& statistics,
+                                                       const ConstellationCandidates& candidates,
+                                                       const ConstellationParams& params,
+                                                       const Execution& execution) {
   const Tables tables(statistics);
   std::vector<ConstellationChoice> results(params.restarts);
   parallel_for(execution, params.restarts, [&](int64_t r) {
@@ -211,8 +222,17 @@ ConstellationChoice choose_constellation(const ConstellationStatistics& statisti
       result.residual.push_back(descent.residual(l, result.candidate[l]));
     }
   });
-  return *std::min_element(results.begin(), results.end(),
-                           [](const auto& a, const auto& b) { return a.energy < b.energy; });
+  std::stable_sort(results.begin(), results.end(),
+                   [](const auto& a, const auto& b) { return a.energy < b.energy; });
+  std::vector<ConstellationChoice> distinct;
+  for (auto& result : results) {
+    if (result.energy > results.front().energy + params.energy_margin) break;
+    if (std::none_of(distinct.begin(), distinct.end(),
+                     [&](const auto& better) { return is_like(result, better, candidates); }))
+      distinct.push_back(result);
+    if (static_cast<int32_t>(distinct.size()) == params.most_choices) break;
+  }
+  return distinct;
 }
 
 ConstellationStatistics learn_constellation(std::span<const ConstellationSample> samples, int32_t landmarks) {

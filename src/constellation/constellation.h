@@ -55,6 +55,8 @@ struct ConstellationParams {
   double absent_cost =
       7;  // of leaving a landmark out, against all that a place costs; chosen as detection's others
   int32_t restarts = 32;
+  double energy_margin = 12;  // of the other choices above the best
+  int32_t most_choices = 4;
   uint64_t seed = 0;
 };
 
@@ -67,8 +69,11 @@ struct ConstellationChoice {
       residual;  // per landmark: mean clipped squared deviation from those not left out, 0 is perfect
 };
 
-ConstellationChoice choose_constellation(const ConstellationStatistics& statistics,
-                                         const ConstellationCandidates& candidates,
-                                         const ConstellationParams& params, const Execution& execution);
+// The choice of least energy, then others that are hardly worse and put many landmarks elsewhere: on a shape that looks
+// the same front and back to its votes and distances, only a closer look can tell.
+std::vector<ConstellationChoice> choose_constellations(const ConstellationStatistics& statistics,
+                                                       const ConstellationCandidates& candidates,
+                                                       const ConstellationParams& params,
+                                                       const Execution& execution);
 
 }  // namespace focal

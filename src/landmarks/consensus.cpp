@@ -87,25 +87,45 @@ int32_t nearest_corner(const TriangleMesh& surface, const SurfacePoint& point) {
   return surface.triangles(point.triangle, nearest);
 }
 
+// What the training shapes say when their maps start from the landmarks that were not left out; nothing when those are
+// too few to start from.
+std::vector<CarriedMarks> carried_from(const LandmarkModel& model, const SurfaceAnalysis& analysis,
+                                       const Placement& placement, const CarryParams& params,
+                                       const Execution& execution) {
+  std::vector<int32_t> trusted;
+  std::vector<SurfacePoint> starts;
+  for (size_t l = 0; l < placement.vertex.size(); ++l) {
+    if (placement.vertex[l] < 0 || placement.evidence[l].left_out) continue;
+    trusted.push_back(static_cast<int32_t>(l)), starts.push_back(placement.point[l]);
+  }
+  if (model.atlas.empty() || trusted.size() < 3) return {};
+  return carry_marks(model.atlas, model.reach, analysis, trusted, analysis.heat.distances(starts, execution),
+                     params, execution);
+}
+
+float mean_residual(const std::vector<CarriedMarks>& carried) {
+  float sum = 0;
+  for (const auto& shape : carried) sum += shape.residual / static_cast<float>(carried.size());
+  return sum;
+}
+
 }  // namespace
+
+double quick_map_residual(const LandmarkModel& model, const SurfaceAnalysis& analysis,
+                          const Placement& placement, const Execution& execution) {
+  const auto carried = carried_from(model, analysis, placement, quick, execution);
+  return carried.empty() ? std::numeric_limits<double>::infinity() : mean_residual(carried);
+}
 
 void join_carried_marks(const LandmarkModel& model, const SurfaceAnalysis& analysis, Quality quality,
                         Placement& placement, const Execution& execution) {
   const bool best = quality == Quality::best;
-  std::vector<int32_t> placed, trusted;
-  std::vector<SurfacePoint> starts;
-  for (size_t l = 0; l < placement.vertex.size(); ++l) {
-    if (placement.vertex[l] < 0) continue;
-    placed.push_back(static_cast<int32_t>(l));
-    if (placement.evidence[l].left_out) continue;
-    trusted.push_back(static_cast<int32_t>(l)), starts.push_back(placement.point[l]);
-  }
-  if (trusted.size() < 3) return;  // too few to start a map from
-  const auto carried =
-      carry_marks(model.atlas, model.reach, analysis, trusted, analysis.heat.distances(starts, execution),
-                  best ? thorough : quick, execution);
-  for (const auto& shape : carried)
-    if (best) placement.map_residual += shape.residual / static_cast<float>(carried.size());
+  const auto carried = carried_from(model, analysis, placement, best ? thorough : quick, execution);
+  if (carried.empty()) return;
+  if (best) placement.map_residual = mean_residual(carried);
+  std::vector<int32_t> placed;
+  for (size_t l = 0; l < placement.vertex.size(); ++l)
+    if (placement.vertex[l] >= 0) placed.push_back(static_cast<int32_t>(l));
   const std::vector<double> weights = weights_of(carried);
   const TriangleMesh& surface = analysis.surface();
   const MatrixX3 normals = face_normals(surface);

@@ -13,4 +13,8 @@ namespace focal {
 void join_carried_marks(const LandmarkModel& model, const SurfaceAnalysis& analysis, Quality quality,
                         Placement& placement, const Execution& execution);
 
+// How far the maps of a few training shapes, started from the placement, are from fitting; less is better.
+double quick_map_residual(const LandmarkModel& model, const SurfaceAnalysis& analysis,
+                          const Placement& placement, const Execution& execution);
+
 }  // namespace focal

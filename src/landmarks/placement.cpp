@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/stopwatch.h"
 #include "landmarks/consensus.h"
@@ -18,6 +19,9 @@ namespace {
 constexpr int32_t samples_at_once = 128;  // whose tables are in memory; a multiple of 32
 constexpr double peak_separation = 0.08;  // of sqrt(area), as measured in the reference
 constexpr double disc_radius = 0.04;      // of the tangent directions, likewise
+// Of the maps' residual against the constellation's energy, where several constellations come near the best. On whole and
+// spoiled training shapes left out (six categories, 480 pairs of which one was right), 800 mended 11 and spoiled 2.
+constexpr double residual_weight = 800;
 
 // Votes of the first `count` samples, vertices x landmarks.
 RowMatrixf cast_votes(const LandmarkModel& model, const SurfaceAnalysis& analysis, int32_t count,
@@ -128,13 +132,23 @@ Placement place_landmarks(const LandmarkModel& model, const SurfaceAnalysis& ana
   std::vector<int32_t> vertices;
   const ConstellationCandidates candidates =
       make_candidates(peaks, result.votes, analysis, vertices, execution);
-  const ConstellationChoice choice =
-      choose_constellation(model.constellation, candidates, ConstellationParams{}, execution);
-  result.energy = choice.energy;
-  record_evidence(peaks, candidates, choice, samples, vertices, result);
+  const auto choices =
+      choose_constellations(model.constellation, candidates, ConstellationParams{}, execution);
   seconds.constellation += watch.lap();
-  refine_placement(model.constellation, analysis, result, execution);
-  if (!model.atlas.empty()) join_carried_marks(model, analysis, params.quality, result, execution);
+  std::vector<Placement> placements(choices.size(), result);
+  size_t best = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (size_t c = 0; c < choices.size(); ++c) {
+    record_evidence(peaks, candidates, choices[c], samples, vertices, placements[c]);
+    refine_placement(model.constellation, analysis, placements[c], execution);
+    if (choices.size() == 1) break;
+    const double cost =
+        choices[c].energy + residual_weight * quick_map_residual(model, analysis, placements[c], execution);
+    if (cost < least) least = cost, best = c;
+  }
+  result = std::move(placements[best]);
+  result.energy = choices[best].energy;
+  join_carried_marks(model, analysis, params.quality, result, execution);
   record_borders(analysis, result);
   seconds.refine += watch.lap();
   return result;

@@ -47,7 +47,7 @@ std::vector<int32_t> choose_among(const Peaks& peaks, const RowMatrixf& votes, c
       candidates.distance(a, b) = (field(a, vertices[b]) + field(b, vertices[a])) / 2;
   candidates.directions =
       tangent_directions(mesh.surface, points_at(mesh.surface, vertices), field, disc_radius, execution);
-  const auto choice = choose_constellation(model.constellation, candidates, {}, execution);
+  const auto choice = choose_constellations(model.constellation, candidates, {}, execution).front();
   std::vector<int32_t> chosen;
   for (const int32_t c : choice.candidate) chosen.push_back(c < 0 ? -1 : vertices[c]);
   return chosen;

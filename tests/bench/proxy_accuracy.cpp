@@ -21,6 +21,7 @@ constexpr Quality qualities[] = {Quality::best, Quality::interactive};
 constexpr int32_t proxies[] = {3500, 0};
 struct Errors {
   double sum[2][2] = {};  // [quality][proxy]: mean error in edges, summed over the seeds
+  int turned[2][2] = {};  // seeds whose mean error is that of a whole shape turned round
 };
 using MeshErrors = std::map<std::string, Errors>;  // by test mesh
 
@@ -47,8 +48,9 @@ void add_errors(const focal_bench::MarkedSet& set, uint64_t seed, int threads, M
       const SurfaceAnalysis analysis = analyse_for(params, set.test[m].mesh, how, execution);
       for (int q = 0; q < 2; ++q) {
         how.quality = qualities[q];
-        errors[set.name + "/" + set.test_names[m]].sum[q][p] +=
-            mean_error(set.test[m], detect(model, analysis, how, execution).landmarks);
+        const double error = mean_error(set.test[m], detect(model, analysis, how, execution).landmarks);
+        Errors& sums = errors[set.name + "/" + set.test_names[m]];
+        sums.sum[q][p] += error, sums.turned[q][p] += error > 8;
       }
     }
   }
@@ -61,7 +63,9 @@ double mean_of(const std::vector<double>& values) {
 void print_comparison(const std::string& name, const MeshErrors& errors, int seeds) {
   for (int q = 0; q < 2; ++q) {
     std::vector<double> proxy, difference, means;
+    int turned[2] = {};
     for (const auto& [mesh, e] : errors) {
+      for (int p = 0; p < 2; ++p) turned[p] += e.turned[q][p];
       proxy.push_back(e.sum[q][0] / seeds);
       difference.push_back((e.sum[q][0] - e.sum[q][1]) / seeds);
     }
@@ -74,9 +78,10 @@ void print_comparison(const std::string& name, const MeshErrors& errors, int see
     }
     std::sort(means.begin(), means.end());
     std::printf(
-        "%-14s %-12s %3zu meshes: proxy %.3f edges, less full resolution %+.3f, 95 %% in %+.3f .. %+.3f\n",
+        "%-14s %-12s %3zu meshes: proxy %.3f edges, less full resolution %+.3f, 95 %% in %+.3f .. %+.3f; "
+        "turned %d, %d\n",
         name.c_str(), q ? "interactive" : "best", difference.size(), mean_of(proxy), mean_of(difference),
-        means[250], means[9750]);
+        means[250], means[9750], turned[0], turned[1]);
   }
   std::fflush(stdout);
 }

@@ -93,7 +93,7 @@ TEST_CASE("the true configuration wins over impostors with better votes") {
     for (int k = 0; k < 8; ++k) unary.push_back(0.08F * static_cast<float>(k));
   }
   const auto candidates = candidates_on(unseen, options, unary);
-  const ConstellationChoice choice = choose_constellation(statistics, candidates, {}, {});
+  const ConstellationChoice choice = choose_constellations(statistics, candidates, {}, {}).front();
   for (size_t l = 0; l < marks.size(); ++l) {
     CHECK(choice.candidate[l] == candidates.start[l] + 3);
     CHECK(choice.residual[l] < 4);
@@ -120,7 +120,7 @@ TEST_CASE("of two mirror images with equal votes and distances, the right-handed
     std::vector<std::vector<int32_t>> options;
     for (size_t l = 0; l < marks.size(); ++l) options.push_back({marks[l], twins[l]});
     const auto candidates = candidates_on(unseen, options, std::vector<float>(2 * marks.size(), 0));
-    const ConstellationChoice choice = choose_constellation(statistics, candidates, {}, {});
+    const ConstellationChoice choice = choose_constellations(statistics, candidates, {}, {}).front();
     for (size_t l = 0; l < 6; ++l) CHECK(choice.candidate[l] == candidates.start[l] + (mirrored ? 1 : 0));
   }
 }
@@ -138,8 +138,53 @@ TEST_CASE("a landmark without a candidate is left out, and marks never seen toge
   CHECK(statistics.distance_sd(2, 3) > 100);
   CHECK(statistics.distance_mean == statistics.distance_mean.transpose());
   const auto candidates = candidates_on(individual(lump, 9), {{10}, {}, {500, 288}, {402}}, {0, 0, 0, 0});
-  const ConstellationChoice choice = choose_constellation(statistics, candidates, {}, {});
+  const ConstellationChoice choice = choose_constellations(statistics, candidates, {}, {}).front();
   CHECK(choice.candidate == std::vector<int32_t>{0, -1, 2, 3});
+}
+
+TEST_CASE("a landmark that suits the others nowhere is left out, and does not pull them") {
+  const std::vector<int32_t> marks = {10, 137, 288, 402, 555, 640};
+  const ConstellationStatistics statistics = learn_from(lump, marks);
+  const TriangleMesh unseen = individual(lump, 100);
+  std::vector<std::vector<int32_t>> options;
+  for (const int32_t mark : marks) options.push_back({mark});
+  options[2] = {640, 137};  // its own place has gone
+  const auto candidates = candidates_on(unseen, options, std::vector<float>(marks.size() + 1, 0));
+  const ConstellationChoice choice = choose_constellations(statistics, candidates, {}, {}).front();
+  CHECK(choice.left_out == std::vector<char>{0, 0, 1, 0, 0, 0});
+  CHECK(choice.candidate[2] >= 0);  // the best there is
+  for (const size_t l : {0, 1, 3, 4, 5}) CHECK(choice.residual[l] < 3);
+}
+
+TEST_CASE("choices that come near the best one are given too, if they are others") {
+  const TriangleMesh body = with_radius(sphere(4), mirror_lump);
+  std::vector<int32_t> marks, twins;
+  for (int32_t v = 90; marks.size() < 6; v += 210) {
+    while (body.positions(v, 0) < 0.3) ++v;
+    marks.push_back(v), twins.push_back(mirror_vertex(body, v));
+    marks.push_back(twins.back()), twins.push_back(v);
+  }
+  const ConstellationStatistics statistics = learn_from(mirror_lump, marks);
+  std::vector<std::vector<int32_t>> options;
+  for (size_t l = 0; l < marks.size(); ++l) options.push_back({marks[l], twins[l]});
+  const auto candidates = candidates_on(body, options, std::vector<float>(2 * marks.size(), 0));
+  ConstellationParams params;
+  params.handedness_weight = 0;  // nothing tells the two sides now
+  const auto choices = choose_constellations(statistics, candidates, params, {});
+  const auto differing = [&](size_t a, size_t b) {
+    size_t count = 0;
+    for (size_t l = 0; l < marks.size(); ++l) count += choices[a].candidate[l] != choices[b].candidate[l];
+    return count;
+  };
+  bool has_mirror_image = false;
+  for (size_t c = 1; c < choices.size(); ++c) {
+    CHECK(differing(0, c) >= 2);
+    CHECK(choices[c].energy >= choices[c - 1].energy);
+    has_mirror_image = has_mirror_image || differing(0, c) == marks.size();
+  }
+  CHECK(has_mirror_image);
+  params.most_choices = 1;
+  CHECK(choose_constellations(statistics, candidates, params, {}).size() == 1);
 }
 
 TEST_CASE("the same choice and energy for any number of threads") {
@@ -151,8 +196,8 @@ TEST_CASE("the same choice and energy for any number of threads") {
   const auto candidates = candidates_on(individual(lump, 12), options, std::vector<float>(40, 0.5F));
   Execution one, two;
   one.thread_count = 1, two.thread_count = 2;
-  const auto a = choose_constellation(statistics, candidates, {}, one);
-  const auto b = choose_constellation(statistics, candidates, {}, two);
+  const auto a = choose_constellations(statistics, candidates, {}, one).front();
+  const auto b = choose_constellations(statistics, candidates, {}, two).front();
   CHECK(a.candidate == b.candidate);
   CHECK(a.energy == b.energy);
 }

@@ -89,4 +89,15 @@ TEST_CASE("a rough start is refined to the map that is known: a surface to itsel
   CHECK(after < 0.02);
   CHECK((map.C - Eigen::MatrixXf::Identity(64, 64)).norm() / 8 < 0.1);
   CHECK(map.residual < 0.1);
+
+  // Points before exact_from stay at vertices of the spread; those after it lie at the nearest of all.
+  const auto spread = farthest_points(mesh.positions, 400);
+  const FunctionalMap partly =
+      zoom_out(from, {Phi, spread}, rough, {.first = 16, .last = 64, .step = 8, .exact_from = 200});
+  for (int i = 0; i < 200; ++i)
+    CHECK(std::find(spread.begin(), spread.end(), partly.image[i]) != spread.end());
+  double exact = 0;
+  for (int i = 200; i < 300; ++i)
+    exact += (mesh.positions.row(partly.image[i]) - mesh.positions.row(points[i])).norm() / 100;
+  CHECK(exact < 0.03);
 }
