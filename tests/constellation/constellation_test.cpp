@@ -167,7 +167,8 @@ TEST_CASE("choices that come near the best one are given too, if they are others
   const ConstellationStatistics statistics = learn_from(mirror_lump, marks);
   std::vector<std::vector<int32_t>> options;
   for (size_t l = 0; l < marks.size(); ++l) options.push_back({marks[l], twins[l]});
-  const auto candidates = candidates_on(body, options, std::vector<float>(2 * marks.size(), 0));
+  const auto candidates =
+      candidates_on(individual(mirror_lump, 50), options, std::vector<float>(2 * marks.size(), 0));
   ConstellationParams params;
   params.handedness_weight = 0;  // nothing tells the two sides now
   const auto choices = choose_constellations(statistics, candidates, params, {});
