@@ -60,7 +60,9 @@ struct Tables {
 // One descent: the chosen candidate of every landmark, and the ways from each chosen one to all chosen ones.
 class Descent {
  public:
-  Descent(const Tables& tables, const ConstellationCandidates& candidates, const ConstellationParams& params)
+  // start: one candidate a landmark, or -1.
+  Descent(const Tables& tables, const ConstellationCandidates& candidates, const ConstellationParams& params,
+          const std::vector<int32_t>& start)
       : t_(tables),
         c_(candidates),
         chosen_(tables.L, -1),
@@ -73,6 +75,7 @@ class Descent {
     unary_ = static_cast<float>(params.unary_weight);
     pair_ = static_cast<float>(params.pair_weight / others);
     handedness_ = static_cast<float>(2 * params.handedness_weight / (others * std::max(1, t_.L - 2)));
+    for (int32_t l = 0; l < t_.L; ++l) choose(l, start[l]);
   }
 
   void choose(int32_t l, int32_t candidate) {
@@ -144,6 +147,16 @@ class Descent {
       if (o != l && chosen_[o] >= 0 && candidate >= 0) sum += pair_cost(l, candidate, o), ++count;
     return count ? sum / static_cast<float>(count) : 0;
   }
+  ConstellationChoice result() {
+    ConstellationChoice choice;
+    choice.energy = energy();
+    for (int32_t l = 0; l < t_.L; ++l) {
+      choice.left_out.push_back(chosen_[l] < 0);
+      choice.candidate.push_back(best_option(l).candidate);
+      choice.residual.push_back(residual(l, choice.candidate[l]));
+    }
+    return choice;
+  }
   const std::vector<int32_t>& chosen() const { return chosen_; }
   void allow_absence(double cost) { absent_cost_ = static_cast<float>(cost); }
 
@@ -202,25 +215,28 @@ std::vector<ConstellationChoice> choose_constellations(const ConstellationStatis
                                                        const ConstellationParams& params,
                                                        const Execution& execution) {
   const Tables tables(statistics);
-  std::vector<ConstellationChoice> results(params.restarts);
+  std::vector<std::vector<int32_t>> minima(params.restarts);
   parallel_for(execution, params.restarts, [&](int64_t r) {
     Random random(params.seed, 2000 + r);
-    Descent descent(tables, candidates, params);
+    std::vector<int32_t> start;
     for (int32_t l = 0; l < tables.L; ++l) {
       const int32_t options = candidates.start[l + 1] - candidates.start[l];
-      if (options > 0)
-        descent.choose(l, candidates.start[l] + static_cast<int32_t>(r ? random.below(options) : 0));
+      const int32_t option = options > 0 && r ? static_cast<int32_t>(random.below(options)) : 0;
+      start.push_back(options > 0 ? candidates.start[l] + option : -1);
     }
+    Descent descent(tables, candidates, params, start);
     descent.run(random);
+    minima[r] = descent.chosen();
+  });
+  std::sort(minima.begin(), minima.end());  // many restarts end in the same
+  minima.erase(std::unique(minima.begin(), minima.end()), minima.end());
+  std::vector<ConstellationChoice> results(minima.size());
+  parallel_for(execution, static_cast<int64_t>(minima.size()), [&](int64_t m) {
+    Random random(params.seed, 4000 + m);
+    Descent descent(tables, candidates, params, minima[m]);
     descent.allow_absence(params.absent_cost);  // only now: at first everything is out of place
     descent.run(random);
-    ConstellationChoice& result = results[r];
-    result.energy = descent.energy();
-    for (int32_t l = 0; l < tables.L; ++l) {
-      result.left_out.push_back(descent.chosen()[l] < 0);
-      result.candidate.push_back(descent.best_option(l).candidate);
-      result.residual.push_back(descent.residual(l, result.candidate[l]));
-    }
+    results[m] = descent.result();
   });
   std::stable_sort(results.begin(), results.end(),
                    [](const auto& a, const auto& b) { return a.energy < b.energy; });
