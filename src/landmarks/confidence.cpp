@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace focal {
@@ -148,6 +149,24 @@ std::vector<double> softened(const std::vector<char>& is_true) {
   return result;
 }
 
+// The score from which on calling a landmark absent has the best F1 on the judged placements: those that are absent are
+// few, so that even clear ones stay below a probability of a half. Infinity when none is absent.
+double absence_threshold(const std::vector<double>& score, const std::vector<char>& is_absent) {
+  std::vector<size_t> order(score.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return score[a] > score[b]; });
+  const auto all = static_cast<double>(std::count(is_absent.begin(), is_absent.end(), 1));
+  double found = 0, best = 0, threshold = std::numeric_limits<double>::infinity();
+  for (size_t i = 0; i < order.size(); ++i) {
+    found += is_absent[order[i]];
+    const double f1 = 2 * found / (static_cast<double>(i + 1) + all);
+    if (f1 <= best) continue;
+    best = f1;
+    threshold = i + 1 < order.size() ? (score[order[i]] + score[order[i + 1]]) / 2 : score[order[i]];
+  }
+  return threshold;
+}
+
 }  // namespace
 
 Calibration calibrate(const std::vector<JudgedPlacement>& judged, int32_t landmarks) {
@@ -170,6 +189,10 @@ Calibration calibrate(const std::vector<JudgedPlacement>& judged, int32_t landma
   }
   fit_logistic(x, softened(is_right), result.weight);
   fit_logistic(x, softened(is_absent), result.absent_weight);
+  std::vector<double> score;
+  for (const Features& f : x) score.push_back(weighted(result.absent_weight, f));
+  if (const double threshold = absence_threshold(score, is_absent); std::isfinite(threshold))
+    result.absent_weight[features] -= static_cast<float>(threshold);  // so that it lies at a half
   return result;
 }
 

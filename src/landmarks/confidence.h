@@ -27,7 +27,8 @@ Calibration calibrate(const std::vector<JudgedPlacement>& judged, int32_t landma
 struct Judgement {
   double category_fit = 1;         // 0..1: does this mesh belong to the category at all?
   std::vector<double> confidence;  // per landmark: that it lies within near_radius of where it should
-  std::vector<double> absent;      // per landmark: that it is not on this mesh
+  std::vector<double>
+      absent;  // per landmark, 0..1: that it is not on this mesh; above a half it is called absent
 };
 Judgement judge(const Calibration& calibration, const std::vector<Evidence>& evidence, float map_residual);
 
