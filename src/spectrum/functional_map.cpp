@@ -127,9 +127,10 @@ class ZoomOut {
       if (k == most) break;
       assign_spread(k);
     }
-    const int64_t exact = std::min<int64_t>(params_.exact_from, from_.Phi.rows()) / tile * tile;
+    const int64_t known = from_.Phi.rows();
+    const int64_t exact = params_.exact_from < known ? params_.exact_from / tile * tile : known;
     if (exact > 0) assign_spread(most);
-    if (exact < from_.Phi.rows()) assign_all(most, exact);
+    if (exact < known) assign_all(most, exact);
     measure();
     return std::move(map_);
   }
