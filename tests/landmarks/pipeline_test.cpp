@@ -13,6 +13,7 @@
 #include "landmarks/model_file.h"
 #include "landmarks/model_parts.h"
 #include "landmarks/train.h"
+#include "mesh/damage.h"
 
 using namespace focal;
 
@@ -112,6 +113,36 @@ TEST_CASE("landmarks are found on a body never seen") {
     const Vector3 on_triangle = position_of(unseen.mesh->source, landmark.source_point);
     CHECK((on_triangle - landmark.position).norm() < 1e-9);
   }
+}
+
+TEST_CASE(
+    "a body that lost an arm keeps the landmarks that it has, and is surer of them than of the lost ones") {
+  const creatures::Character whole = humanoid(200);
+  std::vector<std::optional<SurfacePoint>> marks;
+  int32_t hand = -1;
+  for (const auto& mark : whole.landmarks) {
+    if (mark.name == "handTip.L") hand = static_cast<int32_t>(marks.size());
+    marks.push_back(SurfacePoint{mark.triangle, mark.barycentric});
+  }
+  REQUIRE(hand >= 0);
+  const double radius = 0.25 * std::sqrt(surface_area(posed_mesh(whole)));  // hand and forearm
+  const DamagedMesh cut = cut_ball(undamaged(posed_mesh(whole), marks), *marks[hand], radius, CutEnd::open);
+  const auto mesh = std::make_shared<const PreparedMesh>(prepare(cut.mesh));
+  const Detection detection = detect(small_model(), mesh, {}, threads(2));
+  const double edge = mean_edge_length(posed_mesh(whole));
+  double sum = 0, kept = 0, sure_of_kept = 0, lost = 0, sure_of_lost = 0;
+  for (size_t l = 0; l < marks.size(); ++l) {
+    const auto& landmark = detection.landmarks[l];
+    if (!cut.marks[l]) {
+      ++lost, sure_of_lost += landmark.confidence;
+      continue;
+    }
+    ++kept, sure_of_kept += landmark.confidence;
+    sum += (landmark.position - position_of(cut.mesh, *cut.marks[l])).norm() / edge;
+  }
+  REQUIRE(lost >= 1);
+  CHECK(sum / kept < 4);
+  CHECK(sure_of_lost / lost < sure_of_kept / kept / 2);
 }
 
 TEST_CASE("preset paper trains and votes on every landmark") {
