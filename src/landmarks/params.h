@@ -16,6 +16,8 @@ struct TrainParams {
   int32_t proxy_vertices = 3500;  // shapes are analysed on proxies of about so many vertices; 0: as they are
   double sampling_rate = 1;       // of the vertices analysed of each training shape
   int32_t max_samples_per_shape = 6250;
+  int32_t spoiled_copies =
+      3;  // of every training shape: one noisy with holes, the others with a part cut off
   bool learns_confidence =
       true;  // by cross-fitting, which takes longer than all the rest; else it says nothing
   uint64_t seed = 0;

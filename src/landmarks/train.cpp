@@ -17,10 +17,9 @@
 namespace focal {
 namespace {
 
-constexpr double disc_radius = 0.04;  // of sqrt(area), as in detection
-constexpr int32_t folds = 3;          // of the cross-fitted confidence
-// Spoiled copies of every training shape, and samples of each. More copies help no more; their samples blur the whole ones'.
-constexpr int32_t spoiled_copies = 3, spoiled_samples = 1500;
+constexpr double disc_radius = 0.04;       // of sqrt(area), as in detection
+constexpr int32_t folds = 3;               // of the cross-fitted confidence
+constexpr int32_t spoiled_samples = 1500;  // of each spoiled copy; more help no more
 
 // What the training keeps of one shape.
 struct LearnedShape {
@@ -49,7 +48,7 @@ void validate(const TrainingSet& set, const TrainParams& params) {
                 "name at least one landmark");
   if (params.tree_count < 1 || params.components_per_split < 1 || params.min_leaf_samples < 1 ||
       params.eigenpair_count < 8 || params.max_samples_per_shape < 1 || params.proxy_vertices < 0 ||
-      !(params.sampling_rate > 0 && params.sampling_rate <= 1))
+      params.spoiled_copies < 0 || !(params.sampling_rate > 0 && params.sampling_rate <= 1))
     throw Error(Status::invalid_argument, "a training parameter is out of its range", "start from a preset");
   if (params.preset == Preset::paper && params.proxy_vertices != 0)
     throw Error(Status::invalid_argument, "preset paper analyses a surface as it is, without a proxy",
@@ -230,7 +229,7 @@ Calibration cross_fit(const LandmarkModel& model, const std::vector<Lessons>& sh
     learn_parts(part, kept, execution);
     for (int32_t i = fold; i < count; i += used_folds) {
       const Lessons& left_out = shapes[order[i]];
-      int32_t id = (spoiled_copies + 1) * order[i];
+      int32_t id = (model.params.spoiled_copies + 1) * order[i];
       judge_shape(part, left_out.whole, id, true, judged, execution);
       for (const Lesson& copy : left_out.spoiled) judge_shape(part, copy, ++id, false, judged, execution);
       execution.report(static_cast<double>(i + 1) / count);
@@ -248,7 +247,7 @@ Lesson make_lesson(MarkedShape shape, const AnalysisParams& how, const Execution
 std::vector<Lessons> make_lessons(const TrainingSet& set, const TrainParams& params,
                                   const Execution& execution) {
   const bool paper = params.preset == Preset::paper;
-  const int32_t copies = paper ? 1 : 1 + spoiled_copies;
+  const int32_t copies = paper ? 1 : 1 + params.spoiled_copies;
   std::vector<Lessons> shapes(set.shapes.size());
   std::vector<std::optional<Lesson>> spoiled_lessons(set.shapes.size() * copies);
   execution.begin_stage("analysis", 0, 0.3);

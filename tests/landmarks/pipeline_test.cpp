@@ -58,6 +58,7 @@ TrainParams small_params(Preset preset = Preset::default_preset) {
   params.sampling_rate = 0.5;
   if (preset == Preset::default_preset) params.proxy_vertices = 1500;
   params.tree_count = 10;
+  params.spoiled_copies = 2;
   return params;
 }
 
