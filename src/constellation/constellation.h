@@ -52,8 +52,7 @@ struct ConstellationCandidates {
 
 struct ConstellationParams {
   double unary_weight = 5, pair_weight = 4, handedness_weight = 2;
-  double absent_cost =
-      7;  // of leaving a landmark out, against all that a place costs; chosen as detection's others
+  double absent_cost = 7;  // of leaving a landmark out, against all that a place costs
   int32_t restarts = 32;
   double energy_margin = 12;  // of the other choices above the best
   int32_t most_choices = 4;
@@ -62,11 +61,10 @@ struct ConstellationParams {
 
 struct ConstellationChoice {
   std::vector<int32_t> candidate;  // one a landmark; -1 when it has none
-  std::vector<char>
-      left_out;  // per landmark: its candidate is the best that there is, but none suits the others
+  std::vector<char> left_out;  // per landmark: no candidate suits the others; its own is the best there is
   double energy = 0;
-  std::vector<float>
-      residual;  // per landmark: mean clipped squared deviation from those not left out, 0 is perfect
+  // Per landmark: mean clipped squared deviation of its distances from those not left out, 0 is perfect.
+  std::vector<float> residual;
 };
 
 // The choice of least energy, then others that are hardly worse and put many landmarks elsewhere: on a shape that looks

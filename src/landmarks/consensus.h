@@ -7,9 +7,8 @@
 
 namespace focal {
 
-// `best` asks all training shapes, `interactive` a few, in fewer rounds; it leaves the evidence as it is.
 // Moves each placed landmark to where its own place and the marks carried over from all training shapes agree, and records
-// in its evidence how well they do.
+// in its evidence how well they do. Quality `interactive` asks a few shapes in fewer rounds and leaves the evidence as it is.
 void join_carried_marks(const LandmarkModel& model, const SurfaceAnalysis& analysis, Quality quality,
                         Placement& placement, const Execution& execution);
 

@@ -18,8 +18,7 @@ struct TrainParams {
   int32_t max_samples_per_shape = 6250;
   int32_t spoiled_copies =
       3;  // of every training shape: one noisy with holes, the others with a part cut off
-  bool learns_confidence =
-      true;  // by cross-fitting, which takes longer than all the rest; else it says nothing
+  bool learns_confidence = true;  // by cross-fitting, the longer part; a model without has no say on it
   uint64_t seed = 0;
   static TrainParams from_preset(Preset preset);
 };

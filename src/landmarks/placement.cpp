@@ -147,7 +147,6 @@ Placement place_landmarks(const LandmarkModel& model, const SurfaceAnalysis& ana
     if (cost < least) least = cost, best = c;
   }
   result = std::move(placements[best]);
-  result.energy = choices[best].energy;
   join_carried_marks(model, analysis, params.quality, result, execution);
   record_borders(analysis, result);
   seconds.refine += watch.lap();

@@ -26,7 +26,6 @@ struct Placement {
   std::vector<SurfacePoint> point;  // the same, between the vertices
   std::vector<int32_t> rival;       // its strongest other peak, or -1
   std::vector<Evidence> evidence;
-  double energy = 0;       // of the constellation
   float map_residual = 0;  // mean of the maps from the training shapes; 0 without maps
   RowMatrixf votes;        // vertices of the analysed surface x landmarks
 };

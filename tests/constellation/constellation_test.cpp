@@ -78,6 +78,22 @@ int32_t mirror_vertex(const TriangleMesh& mesh, int32_t v) {
   return static_cast<int32_t>(twin);
 }
 
+// Three marks on one side of the mirror_lump, each followed by its twin on the other.
+struct MirrorPairs {
+  std::vector<int32_t> marks, twins;
+};
+MirrorPairs mirror_pairs() {
+  const TriangleMesh body = with_radius(sphere(4), mirror_lump);
+  MirrorPairs pairs;
+  for (int32_t v = 90; pairs.marks.size() < 6; v += 210) {
+    while (body.positions(v, 0) < 0.3) ++v;
+    const int32_t twin = mirror_vertex(body, v);
+    pairs.marks.insert(pairs.marks.end(), {v, twin});
+    pairs.twins.insert(pairs.twins.end(), {twin, v});
+  }
+  return pairs;
+}
+
 }  // namespace
 
 TEST_CASE("the true configuration wins over impostors with better votes") {
@@ -101,14 +117,7 @@ TEST_CASE("the true configuration wins over impostors with better votes") {
 }
 
 TEST_CASE("of two mirror images with equal votes and distances, the right-handed one wins") {
-  const TriangleMesh body = with_radius(sphere(4), mirror_lump);
-  // Pairs (left, right) and two marks in the middle plane.
-  std::vector<int32_t> marks, twins;
-  for (int32_t v = 90; marks.size() < 6; v += 210) {
-    while (body.positions(v, 0) < 0.3) ++v;
-    marks.push_back(v), twins.push_back(mirror_vertex(body, v));
-    marks.push_back(twins.back()), twins.push_back(v);
-  }
+  auto [marks, twins] = mirror_pairs();
   for (const int32_t v : {4, 5}) marks.push_back(v), twins.push_back(v);  // both poles lie on x = 0
   const ConstellationStatistics statistics = learn_from(mirror_lump, marks);
   for (const bool mirrored : {false, true}) {
@@ -157,13 +166,7 @@ TEST_CASE("a landmark that suits the others nowhere is left out, and does not pu
 }
 
 TEST_CASE("choices that come near the best one are given too, if they are others") {
-  const TriangleMesh body = with_radius(sphere(4), mirror_lump);
-  std::vector<int32_t> marks, twins;
-  for (int32_t v = 90; marks.size() < 6; v += 210) {
-    while (body.positions(v, 0) < 0.3) ++v;
-    marks.push_back(v), twins.push_back(mirror_vertex(body, v));
-    marks.push_back(twins.back()), twins.push_back(v);
-  }
+  const auto [marks, twins] = mirror_pairs();
   const ConstellationStatistics statistics = learn_from(mirror_lump, marks);
   std::vector<std::vector<int32_t>> options;
   for (size_t l = 0; l < marks.size(); ++l) options.push_back({marks[l], twins[l]});
