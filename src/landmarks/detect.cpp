@@ -25,8 +25,8 @@ DetectedPoint point_at(const PreparedMesh& mesh, const SurfacePoint& surface_poi
 }
 
 LandmarkStatus status_of(double confidence, double absent, const DetectParams& params) {
-  if (absent > 0.5) return LandmarkStatus::absent;
   if (confidence >= params.found_confidence) return LandmarkStatus::found;
+  if (absent > 0.5) return LandmarkStatus::absent;
   return confidence >= params.absent_confidence ? LandmarkStatus::uncertain : LandmarkStatus::absent;
 }
 
