@@ -56,9 +56,11 @@ void judge(const Case& which, const Shape& shape, const Spoiled& spoiled,
     (truth ? result.confidence_here : result.confidence_gone).push_back(found[l].confidence);
     (truth ? result.border_here : result.border_gone)
         .push_back(nearest_border(spoiled.damaged.mesh, border, found[l].position) / edge);
-    if (truth)
-      result.errors.push_back((found[l].position - position_of(spoiled.damaged.mesh, *truth)).norm() /
-                              (edge * spoiled.scale));
+    result.outcomes.push_back({found[l].confidence, nullptr});
+    if (!truth) continue;
+    result.errors.push_back((found[l].position - position_of(spoiled.damaged.mesh, *truth)).norm() /
+                            (edge * spoiled.scale));
+    result.outcomes.back()[1] = result.errors.back();
   }
 }
 
@@ -150,6 +152,7 @@ nlohmann::json json_of(const std::vector<CaseResult>& results) {
                        {"over_10_edges", number(r.share_over(10))},
                        {"lost_in_holes", r.lost_in_holes},
                        {"said_absent", r.said_absent},
+                       {"outcomes", r.outcomes},
                        {"failed_meshes", r.failed},
                        {"seconds", r.seconds}};
     if (r.missing) {

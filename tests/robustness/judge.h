@@ -17,6 +17,8 @@ struct CaseResult {
   int said_absent = 0, truly_absent = 0, both_absent = 0, lost_in_holes = 0, failed = 0;
   // What could tell the absent ones: their confidence, and how near they were put to a border of the surface.
   std::vector<double> confidence_here, confidence_gone, border_here, border_gone;  // the latter in mean edges
+  // Of every mark that was not lost in a hole: confidence, and error, null where its place is gone.
+  nlohmann::json outcomes = nlohmann::json::array();
   bool missing = false, similarity = false;
   double seconds = 0;
 
