@@ -8,6 +8,7 @@
 namespace focal {
 
 using Vector3 = Eigen::Vector3d;
+using Matrix3 = Eigen::Matrix3d;
 using Matrix4 = Eigen::Matrix4d;  // acts on column vectors
 using Vector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;                                                // column-major

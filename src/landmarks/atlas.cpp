@@ -30,6 +30,25 @@ Eigen::VectorXf areas_round(const SurfaceAnalysis& analysis, const std::vector<i
   return area;
 }
 
+// Positions and influences of the points, on the surface that the proxy stands for.
+void remember_rig(const SurfaceAnalysis& analysis, const std::vector<int32_t>& spread, const ShapeRig& rig,
+                  AtlasShape& shape) {
+  const TriangleMesh& full = analysis.proxy.full->surface;
+  const auto points = to_full(analysis.proxy, points_at(analysis.surface(), spread));
+  shape.positions.resize(static_cast<Eigen::Index>(points.size()), 3);
+  shape.rig = ShapeRig{rig.bind, rig.tip, {}};
+  for (size_t i = 0; i < points.size(); ++i) {
+    shape.positions.row(static_cast<Eigen::Index>(i)) = position_of(full, points[i]).transpose();
+    std::vector<Influence> influences;
+    for (int c = 0; c < 3; ++c)
+      for (Influence one : rig.influences[full.triangles(points[i].triangle, c)]) {
+        one.weight *= static_cast<float>(points[i].barycentric[c]);
+        influences.push_back(one);
+      }
+    shape.rig->influences.push_back(heaviest(influences));
+  }
+}
+
 // The point of the triangles round a vertex whose embedding is nearest to `place`.
 class EmbeddedSurface {
  public:
@@ -99,15 +118,11 @@ std::vector<int32_t> first_images(const AtlasShape& shape, float reach, const st
   return images;
 }
 
-CarriedMarks carry(const AtlasShape& shape, std::vector<int32_t> images, const SurfaceAnalysis& analysis,
-                   const SpectralTargets& targets, const std::vector<std::vector<int32_t>>& triangles_at,
-                   const MapParams& params) {
+CarriedMarks carry(const AtlasShape& shape, const FunctionalMap& map, const SurfaceAnalysis& analysis,
+                   const std::vector<std::vector<int32_t>>& triangles_at) {
   const auto L = static_cast<int32_t>(shape.marked.size());
   const auto points = static_cast<int32_t>(shape.distances.rows());
-  MapParams exact_marks = params;
-  exact_marks.exact_from = points;
-  const FunctionalMap map = zoom_out(shape.samples, targets, std::move(images), exact_marks);
-  const EmbeddedSurface embedded(analysis.surface(), targets.Phi, map.C);
+  const EmbeddedSurface embedded(analysis.surface(), analysis.eigenfunctions, map.C);
   CarriedMarks result;
   result.residual = map.residual;
   result.point.resize(L);
@@ -154,7 +169,7 @@ SpectralTargets spectral_targets(const SurfaceAnalysis& analysis, int32_t spread
 
 AtlasShape remember_shape(const SurfaceAnalysis& analysis,
                           const std::vector<std::optional<SurfacePoint>>& points, const RowMatrixf& fields,
-                          float reach) {
+                          float reach, const std::optional<ShapeRig>& rig) {
   const auto& surface = analysis.surface();
   const auto& Phi = analysis.eigenfunctions;
   const auto L = static_cast<Eigen::Index>(points.size());
@@ -180,27 +195,42 @@ AtlasShape remember_shape(const SurfaceAnalysis& analysis,
   }
   shape.step = std::max(shape.samples.Phi.cwiseAbs().maxCoeff(), 1e-6f) / (atlas_zero - 1);
   for (float& value : shape.samples.Phi.reshaped()) value = std::round(value / shape.step) * shape.step;
+  if (rig) remember_rig(analysis, spread, *rig, shape);
   return shape;
 }
 
-std::vector<CarriedMarks> carry_marks(const std::vector<AtlasShape>& atlas, float reach,
-                                      const SurfaceAnalysis& analysis, const std::vector<int32_t>& landmark,
-                                      const RowMatrixf& fields, const CarryParams& params,
-                                      const Execution& execution) {
+std::vector<ShapeMap> map_shapes(const std::vector<AtlasShape>& atlas, float reach,
+                                 const SurfaceAnalysis& analysis, const std::vector<int32_t>& landmark,
+                                 const RowMatrixf& fields, const CarryParams& params,
+                                 const Execution& execution) {
   const SpectralTargets targets = spectral_targets(analysis, params.spread);
-  std::vector<std::vector<int32_t>> triangles_at(analysis.surface().vertex_count());
-  for (int32_t t = 0; t < analysis.surface().triangle_count(); ++t)
-    for (int i = 0; i < 3; ++i) triangles_at[analysis.surface().triangles(t, i)].push_back(t);
   std::vector<Start> starts(atlas.size());
   parallel_for(execution, static_cast<int64_t>(atlas.size()), [&](int64_t s) {
     starts[s] = {static_cast<int32_t>(s), first_images(atlas[s], reach, landmark, fields, targets.spread)};
   });
   if (params.most_alike > 0 && params.most_alike < static_cast<int32_t>(starts.size()))
     starts = most_alike(std::move(starts), atlas, targets, params, execution);
-  std::vector<CarriedMarks> result(starts.size());
+  std::vector<ShapeMap> result(starts.size());
   parallel_for(execution, static_cast<int64_t>(starts.size()), [&](int64_t i) {
-    result[i] = carry(atlas[starts[i].shape], std::move(starts[i].images), analysis, targets, triangles_at,
-                      params.map);
+    const AtlasShape& shape = atlas[starts[i].shape];
+    MapParams map = params.map;
+    map.exact_from = params.exact_points ? 0 : static_cast<int32_t>(shape.distances.rows());
+    result[i] = {starts[i].shape, zoom_out(shape.samples, targets, std::move(starts[i].images), map)};
+  });
+  return result;
+}
+
+std::vector<CarriedMarks> carry_marks(const std::vector<AtlasShape>& atlas, float reach,
+                                      const SurfaceAnalysis& analysis, const std::vector<int32_t>& landmark,
+                                      const RowMatrixf& fields, const CarryParams& params,
+                                      const Execution& execution) {
+  const auto maps = map_shapes(atlas, reach, analysis, landmark, fields, params, execution);
+  std::vector<std::vector<int32_t>> triangles_at(analysis.surface().vertex_count());
+  for (int32_t t = 0; t < analysis.surface().triangle_count(); ++t)
+    for (int i = 0; i < 3; ++i) triangles_at[analysis.surface().triangles(t, i)].push_back(t);
+  std::vector<CarriedMarks> result(maps.size());
+  parallel_for(execution, static_cast<int64_t>(maps.size()), [&](int64_t i) {
+    result[i] = carry(atlas[maps[i].shape], maps[i].map, analysis, triangles_at);
   });
   return result;
 }

@@ -10,10 +10,10 @@
 namespace focal {
 
 // points: the marks on the analysed surface, one a landmark or none; fields: the distance of every vertex from those that
-// are there, in their order.
+// are there, in their order; rig: of the surface that the proxy stands for, or none.
 AtlasShape remember_shape(const SurfaceAnalysis& analysis,
                           const std::vector<std::optional<SurfacePoint>>& points, const RowMatrixf& fields,
-                          float reach);
+                          float reach, const std::optional<ShapeRig>& rig = std::nullopt);
 
 // What one training shape says of a new one.
 struct CarriedMarks {
@@ -22,13 +22,27 @@ struct CarriedMarks {
 };
 
 struct CarryParams {
-  MapParams map;
+  MapParams map;  // exact_from is set here
+  bool exact_points =
+      false;               // points too, not only marks, go to the nearest of all vertices in the last round
   int32_t spread = 1000;   // vertices that stand for all of them until the last round
   int32_t most_alike = 0;  // carry from so many shapes only, those whose coarse maps fit best; 0: from all
 };
 
+// A training shape mapped onto the analysed surface.
+struct ShapeMap {
+  int32_t shape = 0;  // of the atlas
+  FunctionalMap map;  // its points, then its marks, to vertices of the surface
+};
+
 // landmark: those placed so far, which the maps start from; fields: the distances of all vertices from them, in this order.
-// One entry a shape that was carried from.
+// One entry a shape that was mapped.
+std::vector<ShapeMap> map_shapes(const std::vector<AtlasShape>& atlas, float reach,
+                                 const SurfaceAnalysis& analysis, const std::vector<int32_t>& landmark,
+                                 const RowMatrixf& fields, const CarryParams& params,
+                                 const Execution& execution);
+
+// The same, and what each says of the landmarks.
 std::vector<CarriedMarks> carry_marks(const std::vector<AtlasShape>& atlas, float reach,
                                       const SurfaceAnalysis& analysis, const std::vector<int32_t>& landmark,
                                       const RowMatrixf& fields, const CarryParams& params,

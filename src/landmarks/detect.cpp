@@ -95,12 +95,15 @@ Detection detect(std::shared_ptr<const LandmarkModel> model, std::shared_ptr<con
                  const DetectParams& params, const Execution& execution) {
   Stopwatch whole;
   execution.begin_stage("analysis", 0, 0.4);
-  const SurfaceAnalysis analysis = analyse_for(model->params, std::move(mesh), params, execution);
-  Detection result = detect(std::move(model), analysis, params, execution);
-  result.seconds.proxy = analysis.proxy_seconds;
-  result.seconds.spectrum = analysis.spectrum_seconds;
-  result.seconds.descriptors += analysis.descriptor_seconds;
-  result.seconds.geodesics += analysis.geodesic_seconds;
+  auto analysis =
+      std::make_shared<SurfaceAnalysis>(analyse_for(model->params, std::move(mesh), params, execution));
+  Detection result = detect(std::move(model), *analysis, params, execution);
+  result.seconds.proxy = analysis->proxy_seconds;
+  result.seconds.spectrum = analysis->spectrum_seconds;
+  result.seconds.descriptors += analysis->descriptor_seconds;
+  result.seconds.geodesics += analysis->geodesic_seconds;
+  analysis->distances = {};
+  result.analysis = std::move(analysis);
   result.seconds.total = whole.lap();
   return result;
 }
@@ -123,6 +126,10 @@ Detection detect(std::shared_ptr<const LandmarkModel> model, const SurfaceAnalys
   const Judgement judgement =
       paper ? Judgement{} : judge(model->calibration, placement.evidence, placement.map_residual);
   result.landmarks = landmarks_at(*model, analysis, placement, judgement, params, execution);
+  result.places = placement.point;
+  for (size_t l = 0; l < result.landmarks.size(); ++l)
+    if (placement.vertex[l] < 0 || result.landmarks[l].status == LandmarkStatus::absent)
+      result.places[l].triangle = -1;
   result.seconds.refine += mapping.lap();
   result.category_fit = judgement.category_fit;
   if (analysis.heat.time_was_raised())

@@ -40,6 +40,10 @@ struct Detection {
   std::shared_ptr<const PreparedMesh> mesh;
   std::vector<DetectedLandmark> landmarks;  // one a landmark name of the model, in its order
   Proxy proxy;                              // where the votes lie
+  // What maps onto this mesh start from: its analysis (without distances), and each landmark's place on the analysed surface,
+  // triangle -1 where it is absent. No analysis where detection was handed one.
+  std::shared_ptr<const SurfaceAnalysis> analysis;
+  std::vector<SurfacePoint> places;
   RowMatrixf votes;  // landmarks x vertices of proxy.coarse->surface, each row's largest is 1; may be empty
   double category_fit = 0;            // 0..1
   std::vector<std::string> warnings;  // beside those of the mesh

@@ -13,7 +13,7 @@ namespace focal {
 namespace {
 
 constexpr ArchiveKind kind{"FOCALMDL", "model", 1, 0};
-constexpr int32_t landmark_limit = 4096, name_limit = 4096;
+constexpr int32_t landmark_limit = 4096, name_limit = 4096, joint_limit = 4096;
 constexpr int32_t most = std::numeric_limits<int32_t>::max();
 constexpr float any_number = 1e9F;  // of learned coefficients: finite, and no sum of a few overflows
 constexpr float longest = 1000;     // distance in units of sqrt(area)
@@ -39,6 +39,13 @@ bool is_utf8(std::string_view text) {
     if (overlong || code > 0x10FFFF || (code >= 0xD800 && code < 0xE000)) return false;
   }
   return true;
+}
+
+std::string read_name(ByteReader& in, const char* what) {
+  std::string name = in.text(what);
+  if (name.empty() || name.size() > name_limit || !is_utf8(name) || name.find('\0') != std::string::npos)
+    in.fail(std::string("a ") + what + " is not proper text");
+  return name;
 }
 
 std::span<const float> numbers(const RowMatrixf& matrix) {
@@ -79,9 +86,7 @@ void read_info(ByteReader in, LandmarkModel& model) {
   model.mean_vertex_count = in.i32("mean vertex count", 1, most);
   const int32_t count = in.count("landmark count", 32, 1, landmark_limit);
   for (int32_t l = 0; l < count; ++l) {
-    const std::string name = in.text("landmark name");
-    if (name.empty() || name.size() > name_limit || !is_utf8(name) || name.find('\0') != std::string::npos)
-      in.fail("a landmark name is not proper text");
+    const std::string name = read_name(in, "landmark name");
     const auto& names = model.landmark_names;
     if (std::find(names.begin(), names.end(), name) != names.end()) in.fail("a landmark name is there twice");
     model.landmark_names.push_back(name);
@@ -236,6 +241,78 @@ void read_calibration(ByteReader in, LandmarkModel& model) {
   in.expect_end();
 }
 
+// --- SKEL: the skeleton of rigged training shapes, and of each shape in the atlas where its points and joints lie
+
+void write_matrix(const Matrix4& matrix, ByteWriter& out) {
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 4; ++c) out.f32(static_cast<float>(matrix(r, c)));
+}
+
+void write_skeleton(const LandmarkModel& model, ByteWriter& out) {
+  out.u32(static_cast<uint32_t>(model.skeleton.size()));
+  for (const SkeletonJoint& joint : model.skeleton) out.text(joint.name), out.i32(joint.parent);
+  for (const AtlasShape& shape : model.atlas) {
+    out.u8(shape.rig.has_value());
+    if (!shape.rig) continue;
+    for (Eigen::Index i = 0; i < shape.positions.size(); ++i)
+      out.f32(static_cast<float>(shape.positions.data()[i]));
+    for (const auto& influences : shape.rig->influences)
+      for (const Influence& one : influences) out.u16(static_cast<uint16_t>(one.joint)), out.f32(one.weight);
+    for (size_t j = 0; j < model.skeleton.size(); ++j) {
+      out.u8(shape.rig->bind[j].has_value());
+      if (shape.rig->bind[j]) write_matrix(*shape.rig->bind[j], out);
+      for (const double x : shape.rig->tip[j]) out.f32(static_cast<float>(x));
+    }
+  }
+}
+
+Vector3 read_place(ByteReader& in) {
+  const double x = in.f32("place", -longest, longest), y = in.f32("place", -longest, longest);
+  return {x, y, in.f32("place", -longest, longest)};
+}
+
+Matrix4 read_matrix(ByteReader& in) {
+  Matrix4 matrix = Matrix4::Identity();
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 4; ++c) matrix(r, c) = in.f32("bind matrix", -longest, longest);
+  return matrix;
+}
+
+ShapeRig read_shape_rig(ByteReader& in, size_t points, int32_t joints) {
+  ShapeRig rig;
+  for (size_t p = 0; p < points; ++p) {
+    VertexInfluences influences;
+    for (Influence& one : influences) {
+      one.joint = in.u16("joint");
+      if (one.joint >= joints) in.fail("a joint is not there");
+      one.weight = in.f32("weight", 0, 1);
+    }
+    rig.influences.push_back(influences);
+  }
+  for (int32_t j = 0; j < joints; ++j) {
+    rig.bind.emplace_back();
+    if (in.u8("has joint")) rig.bind.back() = read_matrix(in);
+    rig.tip.push_back(read_place(in));
+  }
+  return rig;
+}
+
+void read_skeleton(ByteReader in, LandmarkModel& model) {
+  const int32_t joints = in.count("joint count", 72, 1, joint_limit);
+  for (int32_t j = 0; j < joints; ++j) {
+    std::string name = read_name(in, "joint name");
+    model.skeleton.push_back({std::move(name), in.i32("parent", -1, j - 1)});
+  }
+  for (AtlasShape& shape : model.atlas) {
+    if (!in.u8("has rig")) continue;
+    shape.positions.resize(shape.distances.rows(), 3);
+    for (Eigen::Index i = 0; i < shape.positions.rows(); ++i)
+      shape.positions.row(i) = read_place(in).transpose();
+    shape.rig = read_shape_rig(in, static_cast<size_t>(shape.distances.rows()), joints);
+  }
+  in.expect_end();
+}
+
 // Reading goes in this order: what later sections are checked against comes first.
 struct Section {
   const char* name;
@@ -243,16 +320,23 @@ struct Section {
   void (*read)(ByteReader, LandmarkModel&);
 };
 constexpr Section sections[] = {
-    {"INFO", write_info, read_info},       {"TRGT", write_targets, read_targets},
-    {"FRST", write_forests, read_forests}, {"CNST", write_constellation, read_constellation},
-    {"ATLS", write_atlas, read_atlas},     {"CALB", write_calibration, read_calibration},
+    {"INFO", write_info, read_info},         {"TRGT", write_targets, read_targets},
+    {"FRST", write_forests, read_forests},   {"CNST", write_constellation, read_constellation},
+    {"ATLS", write_atlas, read_atlas},       {"CALB", write_calibration, read_calibration},
+    {"SKEL", write_skeleton, read_skeleton},
 };
+
+// Models of marked shapes have no skeleton: their files lack the section.
+bool is_written(const Section& section, const LandmarkModel& model) {
+  return section.write != write_skeleton || !model.skeleton.empty();
+}
 
 }  // namespace
 
 std::vector<std::byte> serialise(const LandmarkModel& model) {
   std::vector<ArchiveSection> written;
   for (const Section& section : sections) {
+    if (!is_written(section, model)) continue;
     ByteWriter out;
     section.write(model, out);
     written.push_back({section.name, out.take()});
@@ -263,7 +347,9 @@ std::vector<std::byte> serialise(const LandmarkModel& model) {
 LandmarkModel parse_model(std::span<const std::byte> file) {
   const Archive archive(kind, file);
   LandmarkModel model;
-  for (const Section& section : sections) section.read(archive.section(section.name), model);
+  for (const Section& section : sections)
+    if (section.read != read_skeleton || archive.has(section.name))
+      section.read(archive.section(section.name), model);
   return model;
 }
 

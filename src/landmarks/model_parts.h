@@ -6,6 +6,7 @@
 #include "constellation/constellation.h"
 #include "forest/regression_forest.h"
 #include "landmarks/landmark_model.h"
+#include "landmarks/training_set.h"
 #include "spectrum/functional_map.h"
 
 namespace focal {
@@ -33,6 +34,9 @@ struct AtlasShape {
   float step = 1;            // the eigenfunctions are whole multiples of it, fewer than 32768
   TargetMatrix distances;    // points x landmarks, from the marks, as targets are kept
   std::vector<char> marked;  // per landmark
+  // Of a rigged shape: where the points lie, in the coordinates of its surface, and its rig with one entry of influences a point.
+  MatrixX3 positions;
+  std::optional<ShapeRig> rig;
 };
 
 struct LandmarkModel {
@@ -48,6 +52,7 @@ struct LandmarkModel {
   std::vector<AtlasShape> atlas;
   ConstellationStatistics constellation;
   Calibration calibration;
+  std::vector<SkeletonJoint> skeleton;  // of the rigged training shapes; empty without any
 };
 
 }  // namespace focal

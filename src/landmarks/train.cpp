@@ -148,7 +148,8 @@ void learn_parts(LandmarkModel& model, const std::vector<const Lessons*>& shapes
   model.atlas.resize(shapes.size());
   parallel_for(execution, static_cast<int64_t>(shapes.size()), [&](int64_t s) {
     const Lesson& whole = shapes[s]->whole;
-    model.atlas[s] = remember_shape(whole.analysis, whole.learned.points, whole.learned.fields, model.reach);
+    model.atlas[s] = remember_shape(whole.analysis, whole.learned.points, whole.learned.fields, model.reach,
+                                    whole.shape.rig);
   });
   const ForestParams forest{.tree_count = model.params.tree_count,
                             .min_leaf_samples = model.params.min_leaf_samples,
@@ -278,6 +279,7 @@ LandmarkModel train(const TrainingSet& set, const TrainParams& params, const Exe
   LandmarkModel model;
   model.landmark_names = set.landmark_names;
   model.params = params;
+  model.skeleton = set.skeleton;
   model.shape_count = static_cast<int32_t>(set.shapes.size());
   int64_t vertices = 0;
   for (const auto& shape : set.shapes) vertices += shape.mesh->surface.vertex_count();

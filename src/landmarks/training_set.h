@@ -6,18 +6,35 @@
 #include <vector>
 
 #include "mesh/prepare.h"
+#include "mesh/rig.h"
 
 namespace focal {
+
+// The skeleton of one shape, in the coordinates of its surface.
+struct ShapeRig {
+  std::vector<std::optional<Matrix4>>
+      bind;                  // a joint of the set's skeleton: rigid, or none where it is missing here
+  std::vector<Vector3> tip;  // the far end of its region, in the same coordinates
+  std::vector<VertexInfluences> influences;  // a vertex of mesh->surface
+};
 
 struct MarkedShape {
   std::shared_ptr<const PreparedMesh> mesh;
   std::vector<std::optional<SurfacePoint>>
       marks;  // on mesh->surface; one a landmark name; empty: absent here
+  std::optional<ShapeRig> rig = std::nullopt;
+};
+
+// Of the skeleton that all rigged shapes of a set share.
+struct SkeletonJoint {
+  std::string name;
+  int32_t parent = -1;  // comes before it; -1: a root
 };
 
 struct TrainingSet {
   std::vector<std::string> landmark_names;
   std::vector<MarkedShape> shapes;
+  std::vector<SkeletonJoint> skeleton;  // empty: no shape has a rig
 };
 
 }  // namespace focal

@@ -1,0 +1,38 @@
+// Skeleton and skin: joints, and how far each of them moves every vertex.
+#pragma once
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/matrix.h"
+
+namespace focal {
+
+struct Joint {
+  std::string name;
+  int32_t parent = -1;                 // comes before it; -1: a root
+  Matrix4 bind = Matrix4::Identity();  // from the joint's own coordinates to those of the mesh
+};
+
+struct Influence {
+  int32_t joint = 0;
+  float weight = 0;
+};
+// Heaviest first, sum 1, no joint twice; all weights 0: nothing moves the vertex.
+inline constexpr int most_influences = 4;
+using VertexInfluences = std::array<Influence, most_influences>;
+
+struct Rig {
+  std::vector<Joint> joints;
+  std::vector<VertexInfluences> influences;  // one a vertex
+};
+
+// The heaviest of any number of influences, scaled to sum 1; of one joint they are added up.
+VertexInfluences heaviest(std::span<const Influence> influences);
+
+// Linear blend skinning: each position moved by the mean of its joints' transforms (one a joint). Vertices without a joint stay.
+MatrixX3 skinned(const MatrixX3& positions, const std::vector<VertexInfluences>& influences,
+                 const std::vector<Matrix4>& transforms);
+
+}  // namespace focal

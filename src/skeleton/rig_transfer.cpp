@@ -1,0 +1,246 @@
+#include "skeleton/rig_transfer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "base/error.h"
+#include "landmarks/atlas.h"
+#include "skeleton/rig_landmarks.h"
+#include "skeleton/similarity.h"
+
+namespace focal {
+namespace {
+
+// Chosen on left-out training characters; see docs/accuracy.md.
+constexpr double alike_falloff = 30;    // a shape counts exp(-falloff (residual - least residual))
+constexpr double place_outlier = 0.02;  // of sqrt(area): places farther from the consensus count less
+constexpr double ring_softness = 0.05;  // share of a joint's part that counts beside its ring
+constexpr int nearest_points = 4;       // of a training shape that give a vertex its weights
+constexpr float least_weight = 0.02f;   // lighter influences are dropped
+
+// What one training shape says of the new character, in the coordinates of the full surface.
+struct Opinion {
+  double weight = 0;
+  std::vector<std::optional<Vector3>> place;
+  std::vector<Matrix3> turn;  // of the joint, where there is a place
+  std::vector<Vector3> tip;
+};
+
+std::vector<ShapeMap> maps_of(const Detection& detection, const Execution& execution) {
+  const LandmarkModel& model = *detection.model;
+  if (model.skeleton.empty())
+    throw Error(Status::invalid_argument, "the model was not learned from rigged characters",
+                "train one with --rigs, or focal_training_set_add_rig");
+  if (!detection.analysis)
+    throw Error(Status::invalid_argument, "the detection keeps no analysis of the mesh",
+                "detect on the mesh itself");
+  std::vector<int32_t> landmark;
+  std::vector<SurfacePoint> places;
+  for (size_t l = 0; l < detection.places.size(); ++l)
+    if (detection.places[l].triangle >= 0)
+      landmark.push_back(static_cast<int32_t>(l)), places.push_back(detection.places[l]);
+  if (landmark.size() < 3)
+    throw Error(Status::invalid_argument, "fewer than three landmarks were found on the mesh",
+                "is it of the category that the model was learned on?");
+  const SurfaceAnalysis& analysis = *detection.analysis;
+  CarryParams params{.map = {.first = 20, .last = 120, .step = 8}, .exact_points = true};
+  auto maps = map_shapes(model.atlas, model.reach, analysis, landmark,
+                         analysis.heat.distances(places, execution), params, execution);
+  std::erase_if(maps, [&](const ShapeMap& one) { return !model.atlas[one.shape].rig; });
+  return maps;
+}
+
+Opinion opinion_of(const std::vector<SkeletonJoint>& skeleton, const AtlasShape& shape,
+                   const std::vector<int32_t>& image, const MatrixX3& vertices) {
+  const Eigen::Index points = shape.positions.rows();
+  MatrixX3 images(points, 3);
+  for (Eigen::Index i = 0; i < points; ++i) images.row(i) = vertices.row(image[i]);
+  const ShapeRig& rig = *shape.rig;
+  const RowMatrixf below = weights_below(skeleton, rig.influences);
+  const Vector area = shape.samples.weight.head(points).cast<double>();
+  Opinion result;
+  for (size_t j = 0; j < skeleton.size(); ++j) {
+    result.place.emplace_back(), result.turn.push_back(Matrix3::Identity()), result.tip.push_back(rig.tip[j]);
+    if (!rig.bind[j]) continue;
+    Vector own = Vector::Zero(points), ring = Vector::Zero(points);
+    for (Eigen::Index i = 0; i < points; ++i) {
+      for (const Influence& one : rig.influences[i])
+        if (one.joint == static_cast<int32_t>(j)) own[i] = one.weight * area[i];
+      const double share = below(i, static_cast<Eigen::Index>(j));
+      const double away = (shape.positions.row(i).transpose() - rig.bind[j]->topRightCorner<3, 1>()).norm();
+      ring[i] = area[i] * 4 * share * (1 - share) * std::exp(-std::pow(away / 0.15, 2));
+    }
+    if (ring.sum() < 1e-6) ring.setZero();
+    Vector near = ring + ring_softness * own;
+    if (!(near.sum() > 1e-9)) continue;
+    if (!(own.sum() > 1e-9)) own = near;
+    const Similarity round = fit_similarity(shape.positions, images, near);
+    const Similarity part = fit_similarity(shape.positions, images, own);
+    result.place.back() = round(rig.bind[j]->topRightCorner<3, 1>());
+    result.turn.back() = part.rotation * rig.bind[j]->topLeftCorner<3, 3>();
+    result.tip.back() = part(rig.tip[j]);
+  }
+  return result;
+}
+
+// A robust mean of places: Cauchy weights round the one found so far. Returns how far the places lie from it in the mean.
+std::pair<Vector3, double> consensus(const std::vector<std::pair<Vector3, double>>& places) {
+  constexpr int rounds = 10;
+  Vector3 middle = Vector3::Zero();
+  double total = 0;
+  for (const auto& [p, w] : places) middle += w * p, total += w;
+  middle /= total;
+  double spread = 0;
+  for (int round = 0; round < rounds; ++round) {
+    Vector3 sum = Vector3::Zero();
+    double all = 0, away = 0;
+    for (const auto& [p, w] : places) {
+      const double d = (p - middle).norm(), trusted = w / (1 + std::pow(d / place_outlier, 2));
+      sum += trusted * p, all += trusted, away += trusted * d;
+    }
+    middle = sum / all, spread = away / all;
+  }
+  return {middle, spread};
+}
+
+// Turns each joint's frame as little as needed for its only child, or its tip, to lie where the frame of the training
+// shapes has it: then rotations of one skeleton's animation mean the same on the other.
+struct Joints {
+  std::vector<Vector3> place, tip;
+  std::vector<Matrix3> turn;
+  std::vector<double> confidence;
+};
+
+Joints agreed_joints(const std::vector<SkeletonJoint>& skeleton, const std::vector<Opinion>& opinions,
+                     std::vector<std::string>& warnings) {
+  Joints result;
+  for (size_t j = 0; j < skeleton.size(); ++j) {
+    std::vector<std::pair<Vector3, double>> places, tips;
+    Matrix3 turn = Matrix3::Zero();
+    for (const Opinion& one : opinions) {
+      if (!one.place[j]) continue;
+      places.emplace_back(*one.place[j], one.weight), tips.emplace_back(one.tip[j], one.weight);
+      turn += one.weight * one.turn[j];
+    }
+    const int32_t p = skeleton[j].parent;
+    if (places.empty()) {  // held by its parent
+      result.place.push_back(p >= 0 ? result.place[p] : Vector3::Zero());
+      result.tip.push_back(result.place.back()),
+          result.turn.push_back(p >= 0 ? result.turn[p] : Matrix3::Identity());
+      result.confidence.push_back(0);
+      warnings.push_back("joint '" + skeleton[j].name +
+                         "' has no part of the surface to follow; it lies at its parent");
+      continue;
+    }
+    const auto [place, spread] = consensus(places);
+    result.place.push_back(place), result.tip.push_back(consensus(tips).first);
+    result.turn.push_back(nearest_rotation(turn));
+    result.confidence.push_back(1 / (1 + std::pow(spread / place_outlier, 2)));
+  }
+  return result;
+}
+
+// vertices of the analysed surface x joints: the mean over the shapes of the weights at the nearest points of each.
+RowMatrixf mapped_weights(const LandmarkModel& model, const SurfaceAnalysis& analysis,
+                          const std::vector<ShapeMap>& maps, const std::vector<double>& shape_weight,
+                          const Execution& execution) {
+  const Eigen::Index n = analysis.surface().vertex_count();
+  std::vector<RowMatrixf> parts(maps.size());
+  parallel_for(execution, static_cast<int64_t>(maps.size()), [&](int64_t m) {
+    const AtlasShape& shape = model.atlas[maps[m].shape];
+    const Eigen::MatrixXf& C = maps[m].map.C;
+    const Eigen::Index points = shape.positions.rows(), k = C.rows();
+    const RowMatrixf there = shape.samples.Phi.topLeftCorner(points, k);
+    const RowMatrixf here = analysis.eigenfunctions.leftCols(C.cols()) * C.transpose();
+    const Eigen::VectorXf size = there.rowwise().squaredNorm();
+    RowMatrixf& sum = parts[m] = RowMatrixf::Zero(n, static_cast<Eigen::Index>(model.skeleton.size()));
+    for (Eigen::Index v = 0; v < n; ++v) {
+      const Eigen::VectorXf away = size - 2 * there * here.row(v).transpose();
+      std::array<std::pair<float, Eigen::Index>, nearest_points> best;
+      best.fill({std::numeric_limits<float>::infinity(), 0});
+      for (Eigen::Index i = 0; i < points; ++i) {
+        if (away[i] >= best.back().first) continue;
+        best.back() = {away[i], i};
+        for (size_t b = best.size() - 1; b > 0 && best[b].first < best[b - 1].first; --b)
+          std::swap(best[b], best[b - 1]);
+      }
+      const float square = here.row(v).squaredNorm();
+      float total = 0;
+      std::array<float, nearest_points> share{};
+      for (size_t b = 0; b < best.size(); ++b)
+        total += share[b] = 1 / (best[b].first + square + 0.02f * size[best[b].second] + 1e-12f);
+      for (size_t b = 0; b < best.size(); ++b)
+        for (const Influence& one : shape.rig->influences[best[b].second])
+          sum(v, one.joint) += static_cast<float>(shape_weight[m]) * one.weight * share[b] / total;
+    }
+  });
+  RowMatrixf result = parts[0];
+  for (size_t m = 1; m < parts.size(); ++m) result += parts[m];
+  return result;
+}
+
+VertexInfluences influences_of(const Eigen::Ref<const Eigen::RowVectorXf>& weights) {
+  std::vector<Influence> influences;
+  const float total = weights.sum();
+  for (Eigen::Index j = 0; j < weights.size(); ++j)
+    if (weights[j] > least_weight * total) influences.push_back({static_cast<int32_t>(j), weights[j]});
+  return heaviest(influences);
+}
+
+}  // namespace
+
+TransferredRig transfer_rig(const Detection& detection, const Execution& execution) {
+  const LandmarkModel& model = *detection.model;
+  execution.begin_stage("maps", 0, 0.7);
+  const std::vector<ShapeMap> maps = maps_of(detection, execution);
+  if (maps.empty())
+    throw Error(Status::invalid_argument, "none of the model's shapes has a rig",
+                "train with rigged characters");
+  execution.begin_stage("joints", 0.7, 0.8);
+  const SurfaceAnalysis& analysis = *detection.analysis;
+  const PreparedMesh& full = *detection.mesh;
+  // Where the analysed vertices lie in the coordinates of the full surface.
+  MatrixX3 vertices = analysis.surface().positions;
+  if (!analysis.proxy.is_full())
+    vertices =
+        (analysis.proxy.coarse->scale * vertices).rowwise() + analysis.proxy.coarse->centre.transpose();
+  float least = std::numeric_limits<float>::infinity();
+  for (const ShapeMap& one : maps) least = std::min(least, one.map.residual);
+  std::vector<Opinion> opinions(maps.size());
+  std::vector<double> weight;
+  for (const ShapeMap& one : maps) weight.push_back(std::exp(-alike_falloff * (one.map.residual - least)));
+  parallel_for(execution, static_cast<int64_t>(maps.size()), [&](int64_t m) {
+    opinions[m] = opinion_of(model.skeleton, model.atlas[maps[m].shape], maps[m].map.image, vertices);
+    opinions[m].weight = weight[m];
+  });
+  TransferredRig result;
+  const Joints joints = agreed_joints(model.skeleton, opinions, result.warnings);
+  const auto to_caller = [&](const Vector3& p) -> Vector3 { return full.centre + full.scale * p; };
+  for (size_t j = 0; j < model.skeleton.size(); ++j) {
+    Joint joint{model.skeleton[j].name, model.skeleton[j].parent};
+    joint.bind.topLeftCorner<3, 3>() = joints.turn[j];
+    joint.bind.topRightCorner<3, 1>() = to_caller(joints.place[j]);
+    result.rig.joints.push_back(std::move(joint));
+    result.tip.push_back(to_caller(joints.tip[j]));
+  }
+  result.confidence = joints.confidence;
+  execution.begin_stage("weights", 0.8, 1);
+  const RowMatrixf weights = mapped_weights(model, analysis, maps, weight, execution);
+  const auto places = coarse_place_of_vertices(analysis.proxy);
+  std::vector<VertexInfluences> on_surface;
+  for (const SurfacePoint& place : places) {
+    Eigen::RowVectorXf mixed = Eigen::RowVectorXf::Zero(weights.cols());
+    for (int c = 0; c < 3; ++c)
+      mixed += static_cast<float>(place.barycentric[c]) *
+               weights.row(analysis.surface().triangles(place.triangle, c));
+    on_surface.push_back(influences_of(mixed));
+  }
+  for (const int32_t v : full.surface_vertex)
+    result.rig.influences.push_back(v >= 0 ? on_surface[v] : VertexInfluences{});
+  execution.begin_stage("done", 1, 1);
+  return result;
+}
+
+}  // namespace focal

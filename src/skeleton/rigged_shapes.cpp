@@ -1,0 +1,186 @@
+#include "skeleton/rigged_shapes.h"
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "base/error.h"
+#include "base/random.h"
+#include "skeleton/rig_landmarks.h"
+#include "skeleton/similarity.h"
+
+namespace focal {
+namespace {
+
+// Rotations of joints, radians, and scales: a spread that makes limbs bend clearly and bodies differ as people do.
+constexpr double pose_deviation = 0.35, most_turned = 0.9, size_deviation = 0.1, breadth_deviation = 0.08;
+
+// How much each joint of a character moves, over all vertices, its descendants' share included.
+std::vector<double> weight_below(const Rig& rig) {
+  std::vector<double> sum(rig.joints.size(), 0);
+  for (const auto& influences : rig.influences)
+    for (const Influence& one : influences) sum[one.joint] += one.weight;
+  for (size_t j = rig.joints.size(); j-- > 0;)
+    if (rig.joints[j].parent >= 0) sum[rig.joints[j].parent] += sum[j];
+  return sum;
+}
+
+int32_t index_of(const std::vector<SkeletonJoint>& skeleton, const std::string& name) {
+  for (size_t j = 0; j < skeleton.size(); ++j)
+    if (skeleton[j].name == name) return static_cast<int32_t>(j);
+  return -1;
+}
+
+std::vector<SkeletonJoint> shared_skeleton(const std::vector<RiggedMesh>& characters) {
+  struct Use {
+    int32_t characters = 0, depth = 0, order = 0;
+    std::string parent;
+  };
+  std::map<std::string, Use> uses;
+  int32_t order = 0;
+  for (const RiggedMesh& character : characters) {
+    const auto& joints = character.rig.joints;
+    const std::vector<double> moved = weight_below(character.rig);
+    std::vector<int32_t> depth(joints.size(), 0);
+    for (size_t j = 0; j < joints.size(); ++j) {
+      if (joints[j].parent >= 0) depth[j] = depth[joints[j].parent] + 1;
+      if (moved[j] <= 0) continue;
+      Use& use = uses[joints[j].name];
+      if (use.characters++ == 0)
+        use = {1, depth[j], order++, joints[j].parent < 0 ? "" : joints[joints[j].parent].name};
+    }
+  }
+  std::vector<std::pair<std::string, Use>> kept;
+  for (const auto& [name, use] : uses)
+    if (2 * use.characters >= static_cast<int32_t>(characters.size())) kept.emplace_back(name, use);
+  std::sort(kept.begin(), kept.end(), [](const auto& a, const auto& b) {
+    return std::pair(a.second.depth, a.second.order) < std::pair(b.second.depth, b.second.order);
+  });
+  std::vector<SkeletonJoint> skeleton;
+  for (const auto& [name, use] : kept) {
+    std::string parent = use.parent;  // the nearest ancestor that is kept
+    for (size_t steps = 0; steps < uses.size() && !parent.empty() && index_of(skeleton, parent) < 0; ++steps)
+      parent = uses.contains(parent) ? uses.at(parent).parent : "";
+    skeleton.push_back({name, index_of(skeleton, parent)});
+  }
+  return skeleton;
+}
+
+// The character's own joints -> those of the shared skeleton, each to itself or to its nearest ancestor there; -1: none.
+std::vector<int32_t> shared_joints(const Rig& rig, const std::vector<SkeletonJoint>& skeleton) {
+  std::vector<int32_t> result;
+  for (const Joint& joint : rig.joints) {
+    const int32_t own = index_of(skeleton, joint.name);
+    result.push_back(own >= 0 || joint.parent < 0 ? own : result[joint.parent]);
+  }
+  return result;
+}
+
+ShapeRig shape_rig(const RiggedMesh& character, const std::vector<SkeletonJoint>& skeleton) {
+  const PreparedMesh& mesh = *character.mesh;
+  ShapeRig result;
+  result.bind.resize(skeleton.size());
+  for (const Joint& joint : character.rig.joints)
+    if (const int32_t j = index_of(skeleton, joint.name); j >= 0 && !result.bind[j]) {
+      Matrix4 bind = Matrix4::Identity();
+      bind.topLeftCorner<3, 3>() = nearest_rotation(joint.bind.topLeftCorner<3, 3>());
+      bind.topRightCorner<3, 1>() = (joint.bind.topRightCorner<3, 1>() - mesh.centre) / mesh.scale;
+      result.bind[j] = bind;
+    }
+  const std::vector<int32_t> shared = shared_joints(character.rig, skeleton);
+  for (int32_t v = 0; v < mesh.surface.vertex_count(); ++v) {
+    std::vector<Influence> influences;
+    for (Influence one : character.rig.influences[mesh.source_vertex[v]])
+      if (one.weight > 0 && shared[one.joint] >= 0) influences.push_back({shared[one.joint], one.weight});
+    result.influences.push_back(heaviest(influences));
+  }
+  result.tip = joint_tips(mesh.surface, result);
+  return result;
+}
+
+// What a joint does to the vertices it moves: turned and scaled about its place, its children carried along.
+std::vector<Matrix4> random_motion(const std::vector<SkeletonJoint>& skeleton, const ShapeRig& rig,
+                                   Random& random) {
+  const auto gaussian = [&] { return random.normal(); };
+  std::vector<Matrix4> motion(skeleton.size(), Matrix4::Identity());
+  std::vector<Matrix3> turn(skeleton.size(), Matrix3::Identity());
+  std::vector<double> size(skeleton.size(), 1);
+  for (size_t j = 0; j < skeleton.size(); ++j) {
+    const int32_t p = skeleton[j].parent;
+    const Vector3 axis = Vector3(gaussian(), gaussian(), gaussian()).stableNormalized();
+    const double angle = p < 0 ? 0 : std::clamp(pose_deviation * gaussian(), -most_turned, most_turned);
+    size[j] = std::exp(size_deviation * gaussian());
+    turn[j] = Eigen::AngleAxisd(angle, axis.norm() > 0 ? axis : Vector3::UnitX()).toRotationMatrix();
+    if (p >= 0) turn[j] = turn[p] * turn[j];
+    if (!rig.bind[j]) {
+      if (p >= 0) motion[j] = motion[p], turn[j] = turn[p], size[j] = size[p];
+      continue;
+    }
+    const Vector3 place = rig.bind[j]->topRightCorner<3, 1>();
+    const Vector3 moved =
+        p < 0 ? place : Vector3(motion[p].topLeftCorner<3, 3>() * place + motion[p].topRightCorner<3, 1>());
+    motion[j].topLeftCorner<3, 3>() = size[j] * turn[j];
+    motion[j].topRightCorner<3, 1>() = moved - size[j] * turn[j] * place;
+  }
+  return motion;
+}
+
+// The shape in another pose and with other proportions; its marks on the same triangles.
+MarkedShape posed(const MarkedShape& shape, const std::vector<SkeletonJoint>& skeleton, Random random) {
+  const ShapeRig& rig = *shape.rig;
+  std::vector<Matrix4> motion = random_motion(skeleton, rig, random);
+  Matrix4 build = Matrix4::Identity();  // tall and slim, or short and broad
+  for (int axis = 0; axis < 3; ++axis) build(axis, axis) = std::exp(breadth_deviation * random.normal());
+  for (Matrix4& one : motion) one = one * build;
+  TriangleMesh moved{skinned(shape.mesh->surface.positions, rig.influences, motion),
+                     shape.mesh->surface.triangles};
+  const auto mesh = std::make_shared<const PreparedMesh>(prepare(std::move(moved)));
+  MarkedShape result{mesh, {}, ShapeRig{}};
+  for (const auto& mark : shape.marks) {
+    std::optional<SurfacePoint> carried;
+    if (mark) carried = to_surface(*mesh, *mark);
+    if (carried && carried->triangle < 0) carried.reset();
+    result.marks.push_back(carried);
+  }
+  const auto on_surface = [&](const Vector3& p) -> Vector3 { return (p - mesh->centre) / mesh->scale; };
+  for (size_t j = 0; j < skeleton.size(); ++j) {
+    const Matrix3 linear = motion[j].topLeftCorner<3, 3>();
+    const auto carry = [&](const Vector3& p) -> Vector3 {
+      return on_surface(linear * p + motion[j].topRightCorner<3, 1>());
+    };
+    result.rig->bind.emplace_back();
+    result.rig->tip.push_back(carry(rig.tip[j]));
+    if (!rig.bind[j]) continue;
+    Matrix4 bind = Matrix4::Identity();
+    bind.topLeftCorner<3, 3>() = nearest_rotation(linear) * rig.bind[j]->topLeftCorner<3, 3>();
+    bind.topRightCorner<3, 1>() = carry(rig.bind[j]->topRightCorner<3, 1>());
+    result.rig->bind.back() = bind;
+  }
+  for (const int32_t source : mesh->source_vertex) result.rig->influences.push_back(rig.influences[source]);
+  return result;
+}
+
+}  // namespace
+
+TrainingSet training_set_of(const std::vector<RiggedMesh>& characters, const RiggedShapesParams& params) {
+  if (characters.empty())
+    throw Error(Status::invalid_argument, "there is no rigged character to learn from", "add one");
+  TrainingSet set;
+  set.skeleton = shared_skeleton(characters);
+  if (set.skeleton.empty())
+    throw Error(Status::invalid_argument,
+                "no vertex of the characters is moved by a joint that most of them have",
+                "use characters of one skeleton, with the same joint names and skin weights");
+  for (const RiggedMesh& character : characters)
+    set.shapes.push_back({character.mesh, {}, shape_rig(character, set.skeleton)});
+  mark_by_skeleton(set, params.landmarks);
+  const auto originals = static_cast<int32_t>(set.shapes.size());
+  for (int32_t copy = 0;
+       static_cast<int32_t>(set.shapes.size()) < std::max(params.shapes, originals + originals / 2); ++copy)
+    set.shapes.push_back(posed(set.shapes[copy % originals], set.skeleton, Random(params.seed, 9000 + copy)));
+  return set;
+}
+
+}  // namespace focal

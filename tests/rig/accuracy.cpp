@@ -1,0 +1,210 @@
+// How well skeletons and skin weights are transferred: learns from rigged characters, rigs others in unknown poses, prints errors.
+// Not a test with bounds: the figures go into docs/accuracy.md.
+//   focal_rig_accuracy [--train A,B] [--test C,D] [--model FILE] [--seed N]
+// Names of makehuman in FOCAL_EVALUATION_DATA; by default its train and test splits. --model: kept there and used again.
+// --test left-out: of the training split the last four meshes are judged, by the others, to choose between ways.
+#include <Eigen/Geometry>
+#include <cstdio>
+#include <iostream>
+#include <map>
+#include <sstream>
+
+#include "base/atomic_file.h"
+#include "base/stopwatch.h"
+#include "evaluation_data.h"
+#include "gltf/skin.h"
+#include "landmarks/model_file.h"
+#include "landmarks/train.h"
+#include "skeleton/rig_transfer.h"
+#include "skeleton/rigged_shapes.h"
+
+namespace {
+
+using namespace focal;
+using Path = std::filesystem::path;
+
+const Execution execution;  // one a core
+
+struct Truth {
+  std::vector<std::string> name, parent;
+  std::vector<Vector3> place, rest;
+  std::vector<Matrix3> turn;  // of the world
+  MatrixX3 rest_positions;
+  Rig rig;  // of the rest pose
+};
+
+RiggedMesh read_rig(const Path& file) {
+  const auto bytes = read_file(file);
+  GltfMesh mesh = read_gltf_memory(bytes);
+  auto rig = read_gltf_rig(bytes, mesh.primitives);
+  if (!rig) throw std::runtime_error(file.string() + " has no skin");
+  return {std::make_shared<const PreparedMesh>(prepare(std::move(mesh.mesh))), std::move(*rig)};
+}
+
+Vector3 vector_of(const nlohmann::json& values) {
+  return {values[0].get<double>(), values[1].get<double>(), values[2].get<double>()};
+}
+
+Truth read_truth(const Path& set, const std::string& name) {
+  Truth truth;
+  const auto file = focal_test::read_json(set / (name + ".joints.json"));
+  for (const auto& joint : file["joints"]) {
+    truth.name.push_back(joint["name"]);
+    truth.parent.push_back(joint["parent"].is_null() ? "" : joint["parent"].get<std::string>());
+    truth.place.push_back(vector_of(joint["position"])), truth.rest.push_back(vector_of(joint["rest"]));
+    const auto& q = joint["rotation"];
+    truth.turn.push_back(
+        Eigen::Quaterniond(q[3].get<double>(), q[0], q[1], q[2]).normalized().toRotationMatrix());
+  }
+  const RiggedMesh rigged = read_rig(set / (name + ".rig.glb"));
+  truth.rest_positions = rigged.mesh->source.positions, truth.rig = rigged.rig;
+  return truth;
+}
+
+std::vector<std::string> words(const std::string& list) {
+  std::vector<std::string> result;
+  std::istringstream in(list);
+  for (std::string word; std::getline(in, word, ',');) result.push_back(word);
+  return result;
+}
+
+struct Errors {
+  std::vector<double> joints;  // of body height
+  std::map<std::string, std::vector<double>> by_joint;
+  double weights = 0, posed = 0, chamfer = 0, seconds = 0;
+  double height = 0;
+};
+
+// Undoes the true rotations with the skeleton and weights that were found: how far from the rest pose the vertices end.
+double reposing_error(const TransferredRig& found, const Truth& truth, const MatrixX3& positions) {
+  const auto& joints = found.rig.joints;
+  std::vector<Matrix4> back(joints.size(), Matrix4::Identity());
+  std::vector<Vector3> to(joints.size());
+  for (size_t j = 0; j < joints.size(); ++j) {
+    const auto at = static_cast<size_t>(std::find(truth.name.begin(), truth.name.end(), joints[j].name) -
+                                        truth.name.begin());
+    const Vector3 place = joints[j].bind.topRightCorner<3, 1>();
+    const int32_t p = joints[j].parent;
+    if (p < 0)
+      to[j] = truth.rest[at] + (place - truth.place[at]);
+    else
+      to[j] = to[p] + back[p].topLeftCorner<3, 3>() * (place - joints[p].bind.topRightCorner<3, 1>());
+    back[j].topLeftCorner<3, 3>() = truth.turn[at].transpose();
+    back[j].topRightCorner<3, 1>() = to[j] - truth.turn[at].transpose() * place;
+  }
+  const MatrixX3 moved = skinned(positions, found.rig.influences, back);
+  return (moved - truth.rest_positions).rowwise().norm().mean();
+}
+
+double weight_difference(const TransferredRig& found, const Truth& truth) {
+  double sum = 0;
+  for (size_t v = 0; v < found.rig.influences.size(); ++v) {
+    std::map<std::string, double> difference;
+    for (const Influence& one : found.rig.influences[v])
+      if (one.weight > 0) difference[found.rig.joints[one.joint].name] += one.weight;
+    for (const Influence& one : truth.rig.influences[v])
+      if (one.weight > 0) difference[truth.rig.joints[one.joint].name] -= one.weight;
+    for (const auto& [name, d] : difference) sum += std::abs(d);
+  }
+  return sum / static_cast<double>(found.rig.influences.size());
+}
+
+double nearest_mean(const std::vector<Vector3>& from, const std::vector<Vector3>& to) {
+  double sum = 0;
+  for (const Vector3& a : from) {
+    double least = 1e30;
+    for (const Vector3& b : to) least = std::min(least, (a - b).norm());
+    sum += least / static_cast<double>(from.size());
+  }
+  return sum;
+}
+
+Errors judge(const std::shared_ptr<const LandmarkModel>& model, const Path& set, const std::string& name) {
+  const Truth truth = read_truth(set, name);
+  const auto mesh = std::make_shared<const PreparedMesh>(prepare(read_gltf(set / (name + ".glb")).mesh));
+  Stopwatch watch;
+  const Detection detection = detect(model, mesh, DetectParams{}, execution);
+  const TransferredRig found = transfer_rig(detection, execution);
+  Errors errors;
+  errors.seconds = watch.lap();
+  errors.height = truth.rest_positions.col(1).maxCoeff() - truth.rest_positions.col(1).minCoeff();
+  std::vector<Vector3> places;
+  for (size_t t = 0; t < truth.name.size(); ++t)
+    for (const Joint& joint : found.rig.joints)
+      if (joint.name == truth.name[t]) {
+        places.push_back(joint.bind.topRightCorner<3, 1>());
+        errors.joints.push_back((places.back() - truth.place[t]).norm() / errors.height);
+        errors.by_joint[joint.name].push_back(errors.joints.back());
+      }
+  errors.weights = weight_difference(found, truth);
+  errors.posed = reposing_error(found, truth, mesh->source.positions) / errors.height;
+  errors.chamfer =
+      (nearest_mean(places, truth.place) + nearest_mean(truth.place, places)) / 2 / errors.height;
+  return errors;
+}
+
+double mean(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double x : values) sum += x / static_cast<double>(values.size());
+  return sum;
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  std::map<std::string, std::string> options{
+      {"--train", ""}, {"--test", ""}, {"--model", ""}, {"--seed", "0"}};
+  for (int i = 1; i + 1 < count; i += 2) {
+    if (!options.contains(arguments[i])) return std::cerr << "unknown option " << arguments[i] << '\n', 2;
+    options[arguments[i]] = arguments[i + 1];
+  }
+  const auto set = focal_test::evaluation_set("makehuman");
+  if (!set) return 0;
+  const auto splits = focal_test::read_json(*set / "set.json");
+  auto train_names = words(options["--train"]), test_names = words(options["--test"]);
+  using Names = std::vector<std::string>;
+  if (train_names.empty()) train_names = splits["train"].get<Names>();
+  if (test_names.empty()) test_names = splits["test"].get<Names>();
+  if (options["--test"] == "left-out") {
+    test_names.assign(train_names.end() - 4, train_names.end());
+    train_names.resize(train_names.size() - 4);
+  }
+  Stopwatch watch;
+  std::shared_ptr<const LandmarkModel> model;
+  if (std::filesystem::exists(options["--model"])) {
+    model = std::make_shared<const LandmarkModel>(parse_model(read_file(options["--model"])));
+  } else {
+    std::vector<RiggedMesh> characters;
+    for (const auto& name : train_names) characters.push_back(read_rig(*set / (name + ".rig.glb")));
+    RiggedShapesParams how;
+    how.seed = std::stoull(options["--seed"]);
+    TrainParams params;
+    params.seed = how.seed;
+    model = std::make_shared<const LandmarkModel>(train(training_set_of(characters, how), params, execution));
+    if (!options["--model"].empty()) write_file_atomically(options["--model"], serialise(*model));
+  }
+  std::printf("%zu characters, %zu landmarks, %zu joints, %.0f s\n", train_names.size(),
+              model->landmark_names.size(), model->skeleton.size(), watch.lap());
+  std::printf("%-8s %8s %8s %8s %8s %8s %8s %8s\n", "mesh", "joints %", "p95 %", "worst %", "J2J %",
+              "weights", "posed %", "seconds");
+  std::vector<double> joints, weights, posed, chamfer;
+  std::map<std::string, std::vector<double>> by_joint;
+  for (const auto& name : test_names) {
+    Errors e = judge(model, *set, name);
+    std::sort(e.joints.begin(), e.joints.end());
+    std::printf("%-8s %8.2f %8.2f %8.2f %8.2f %8.3f %8.2f %8.2f\n", name.c_str(), 100 * mean(e.joints),
+                100 * e.joints[e.joints.size() * 95 / 100], 100 * e.joints.back(), 100 * e.chamfer, e.weights,
+                100 * e.posed, e.seconds);
+    joints.insert(joints.end(), e.joints.begin(), e.joints.end());
+    weights.push_back(e.weights), posed.push_back(e.posed), chamfer.push_back(e.chamfer);
+    for (const auto& [joint, values] : e.by_joint)
+      by_joint[joint].insert(by_joint[joint].end(), values.begin(), values.end());
+  }
+  std::sort(joints.begin(), joints.end());
+  std::printf("%-8s %8.2f %8.2f %8.2f %8.2f %8.3f %8.2f\n", "all", 100 * mean(joints),
+              100 * joints[joints.size() * 95 / 100], 100 * joints.back(), 100 * mean(chamfer), mean(weights),
+              100 * mean(posed));
+  for (const auto& [joint, values] : by_joint)
+    std::printf("  %-16s %.2f\n", joint.c_str(), 100 * mean(values));
+  return 0;
+}
