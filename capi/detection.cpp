@@ -187,8 +187,9 @@ focal_status focal_model_detect_analysis(const focal_model* model, const focal_a
     require(out_detection, "out_detection");
     const Call call(model, params, task);
     const auto analysed = resolve<AnalysisObject>(analysis);
-    *out_detection = publish_detection(
-        call, analysed->mesh, detect(call.model->model, analysed->analysis, call.params, call.execution));
+    Detection detection = detect(call.model->model, analysed->analysis, call.params, call.execution);
+    detection.analysis = {analysed, &analysed->analysis};  // kept alive together
+    *out_detection = publish_detection(call, analysed->mesh, std::move(detection));
   });
 }
 

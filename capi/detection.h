@@ -36,4 +36,15 @@ struct DetectionObject {
   mutable std::optional<DistanceFields> distances_;
 };
 
+// The caller's own glTF, or a plain .glb where there is none.
+struct SourceFile {
+  std::vector<std::byte> bytes;
+  std::vector<GltfPrimitive> primitives;
+  GltfLimits limits;
+};
+
+// Throws invalid_argument when the path promises the other kind of file.
+SourceFile source_file(const MeshObject& mesh, const std::filesystem::path& path);
+std::vector<std::byte> with_landmarks(const DetectionObject& object, const SourceFile& source);
+
 }  // namespace focal

@@ -52,19 +52,21 @@ void check_suffix(const std::filesystem::path& path, bool binary) {
                 std::string("choose a path that ends in ") + wanted);
 }
 
-std::vector<std::byte> with_landmarks(const DetectionObject& object, const std::filesystem::path& path) {
-  const MeshObject& mesh = *object.mesh;
-  const auto landmarks = landmarks_of(object);
-  if (!mesh.file.empty()) {
-    check_suffix(path, is_glb(mesh.file));
-    return add_landmarks(mesh.file, mesh.primitives, landmarks, mesh.limits);
+}  // namespace
+
+SourceFile source_file(const MeshObject& mesh, const std::filesystem::path& path) {
+  SourceFile source{mesh.file, mesh.primitives, mesh.limits};
+  if (source.bytes.empty()) {
+    source.bytes = write_glb(mesh.mesh->source);
+    source.primitives = read_gltf_memory(source.bytes).primitives;
   }
-  check_suffix(path, true);
-  const auto plain = write_glb(mesh.mesh->source);
-  return add_landmarks(plain, read_gltf_memory(plain).primitives, landmarks);
+  check_suffix(path, is_glb(source.bytes));
+  return source;
 }
 
-}  // namespace
+std::vector<std::byte> with_landmarks(const DetectionObject& object, const SourceFile& source) {
+  return add_landmarks(source.bytes, source.primitives, landmarks_of(object), source.limits);
+}
 
 const RowMatrixf& DetectionObject::full_votes() const {
   if (detection.votes.size() == 0)
@@ -111,7 +113,7 @@ focal_status focal_detection_write_gltf(const focal_detection* detection, const 
   return guarded([&] {
     const auto object = resolve<DetectionObject>(detection);
     const auto file = path_of(path);
-    write_file_atomically(file, with_landmarks(*object, file));
+    write_file_atomically(file, with_landmarks(*object, source_file(*object->mesh, file)));
   });
 }
 

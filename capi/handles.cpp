@@ -51,6 +51,8 @@ const char* name_of(HandleType type) {
       return "focal_analysis";
     case HandleType::detection:
       return "focal_detection";
+    case HandleType::skeleton:
+      return "focal_skeleton";
     case HandleType::task:
       return "focal_task";
     case HandleType::blob:

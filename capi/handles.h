@@ -7,7 +7,17 @@
 
 namespace focal {
 
-enum class HandleType : int32_t { context, mesh, training_set, model, analysis, detection, task, blob };
+enum class HandleType : int32_t {
+  context,
+  mesh,
+  training_set,
+  model,
+  analysis,
+  detection,
+  skeleton,
+  task,
+  blob
+};
 
 // Each tag is given out once in the life of the process, so a stale one can never name a newer object.
 const void* insert_handle(HandleType type, std::shared_ptr<void> object);

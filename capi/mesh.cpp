@@ -140,6 +140,7 @@ void finish(MeshObject& object, TriangleMesh source, const focal_mesh_params& pa
 struct LoadedFile {
   GltfMesh gltf;
   std::vector<std::byte> bytes;  // when they are to be kept
+  std::optional<std::filesystem::path> folder = std::nullopt;
 };
 
 LoadedFile read_path(const std::filesystem::path& path, const GltfReadParams& how, bool keep) {
@@ -147,7 +148,9 @@ LoadedFile read_path(const std::filesystem::path& path, const GltfReadParams& ho
   // Only by its path does a file find those beside it.
   GltfMesh gltf = how.allow_external_files ? read_gltf(path, how) : read_gltf_memory(bytes, how);
   if (!keep) bytes.clear();
-  return {std::move(gltf), std::move(bytes)};
+  LoadedFile loaded{std::move(gltf), std::move(bytes)};
+  if (how.allow_external_files) loaded.folder = path.parent_path();
+  return loaded;
 }
 
 LoadedFile read_bytes(std::span<const std::byte> bytes, const GltfReadParams& how, bool keep) {
@@ -170,6 +173,7 @@ focal_mesh* load(const focal_context* context, const focal_mesh_params* given, R
   object->primitives = std::move(loaded.gltf.primitives);
   object->warnings = std::move(loaded.gltf.warnings);
   object->limits = how.limits;
+  object->folder = std::move(loaded.folder);
   finish(*object, std::move(loaded.gltf.mesh), params);
   running->report_warnings(object->warnings);
   return publish(object);

@@ -1,7 +1,9 @@
 // focal_mesh: the caller's triangles, the surface made of them, and the file they came from.
 #pragma once
 #include <cstddef>
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +26,8 @@ struct MeshObject {
   std::vector<std::byte> file;            // the caller's glTF; empty when there is none or it was not kept
   std::vector<GltfPrimitive> primitives;  // of that file
   GltfLimits limits;                      // it was read with
+  std::optional<std::filesystem::path>
+      folder;  // of the files beside a .gltf, when it was allowed to read them
 };
 
 }  // namespace focal

@@ -30,6 +30,8 @@ focal_train_params to_abi(const TrainParams& params) {
   result.max_samples_per_shape = params.max_samples_per_shape;
   result.proxy_vertices = params.proxy_vertices;
   result.seed = params.seed;
+  result.learn_confidence = params.learns_confidence;
+  result.rigged_shapes = RiggedShapesParams{}.shapes;
   return result;
 }
 
@@ -46,7 +48,7 @@ struct StructTraits<focal_train_params> {
   static constexpr size_t first_size = 48;
   static focal_train_params defaults() { return to_abi(TrainParams::from_preset(Preset::default_preset)); }
 };
-static_assert(sizeof(focal_train_params) == 48 && offsetof(focal_train_params, seed) == 40);
+static_assert(sizeof(focal_train_params) == 56 && offsetof(focal_train_params, seed) == 40);
 
 template <>
 struct StructTraits<focal_model_info> {
@@ -69,6 +71,8 @@ TrainParams checked(const focal_train_params* given) {
   check_range("focal_train_params.sampling_rate", params.sampling_rate, 1e-6, 1);
   check_range("focal_train_params.max_samples_per_shape", params.max_samples_per_shape, 1, most);
   check_range("focal_train_params.proxy_vertices", params.proxy_vertices, 0, most);
+  check_flag("focal_train_params.learn_confidence", params.learn_confidence);
+  check_range("focal_train_params.rigged_shapes", params.rigged_shapes, 2, 10000);
   result.eigenpair_count = params.eigenpair_count;
   result.tree_count = params.tree_count;
   result.min_leaf_samples = params.min_leaf_samples;
@@ -77,6 +81,7 @@ TrainParams checked(const focal_train_params* given) {
   result.max_samples_per_shape = params.max_samples_per_shape;
   result.proxy_vertices = params.proxy_vertices;
   result.seed = params.seed;
+  result.learns_confidence = params.learn_confidence != 0;
   return result;
 }
 
@@ -110,7 +115,12 @@ focal_status focal_model_train(const focal_training_set* set, const focal_train_
     const TaskLease lease(task);
     const Execution execution = object->context->execution_with(lease.task());
     execution.check_cancelled();
-    *out_model = publish_model(object->context, train(object->set, how, execution));
+    const bool rigged = !object->characters.empty();
+    const TrainingSet made =
+        rigged ? training_set_of(object->characters,
+                                 {.shapes = read_struct(params).rigged_shapes, .seed = how.seed})
+               : TrainingSet{};
+    *out_model = publish_model(object->context, train(rigged ? made : object->set, how, execution));
   });
 }
 

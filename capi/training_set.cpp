@@ -1,11 +1,13 @@
 #include "training_set.h"
 
+#include <algorithm>
 #include <string>
 #include <unordered_set>
 #include <utility>
 
 #include "base/error.h"
 #include "boundary.h"
+#include "gltf/skin.h"
 #include "mesh.h"
 #include "structs.h"
 #include "surface_points.h"
@@ -14,6 +16,7 @@ namespace focal {
 namespace {
 
 std::vector<std::string> checked_names(const char* const* names, uint64_t count) {
+  if (!names && count == 0) return {};  // a set of rigged characters
   require(names, "landmark_names");
   check_range("landmark_count", static_cast<double>(count), 1, 4096);
   std::vector<std::string> result;
@@ -37,6 +40,9 @@ void add(focal_training_set* handle, const focal_mesh* mesh, const void* marks, 
   const auto object = resolve<TrainingSetObject>(handle);
   const auto prepared = resolve<MeshObject>(mesh)->mesh;
   const auto& names = object->set.landmark_names;
+  if (names.empty())
+    throw Error(Status::invalid_argument, "the training set was created without landmark names",
+                "add rigged characters to it, or create one with landmark names");
   require(marks, "landmarks");
   if (count != names.size())
     throw Error(
@@ -50,6 +56,21 @@ void add(focal_training_set* handle, const focal_mesh* mesh, const void* marks, 
     shape.marks.push_back(place(*prepared, i, name));
   }
   object->set.shapes.push_back(std::move(shape));
+}
+
+RiggedMesh rigged(const MeshObject& mesh) {
+  if (mesh.file.empty())
+    throw Error(Status::invalid_argument, "the mesh has no glTF file to take a skeleton from",
+                "load it with focal_mesh_load_gltf and focal_mesh_params.keep_source_file 1");
+  auto rig = read_gltf_rig(mesh.file, mesh.primitives, mesh.limits, mesh.folder);
+  if (!rig)
+    throw Error(Status::invalid_argument, "the mesh has no skin",
+                "add a rigged character, or mark landmarks on the mesh with focal_training_set_add");
+  const auto is_moved = [](const VertexInfluences& influences) { return influences[0].weight > 0; };
+  if (std::none_of(rig->influences.begin(), rig->influences.end(), is_moved))
+    throw Error(Status::invalid_argument, "no vertex of the mesh is moved by a joint of its skin",
+                "paint skin weights, or export them (JOINTS_0, WEIGHTS_0)");
+  return {mesh.mesh, std::move(*rig)};
 }
 
 }  // namespace
@@ -94,11 +115,24 @@ focal_status focal_training_set_add_vertices(focal_training_set* set, const foca
   });
 }
 
+focal_status focal_training_set_add_rig(focal_training_set* set, const focal_mesh* mesh) {
+  return guarded([&] {
+    const auto object = resolve<TrainingSetObject>(set);
+    if (!object->set.landmark_names.empty())
+      throw Error(Status::invalid_argument, "the training set has landmark names of its own",
+                  "create one for rigged characters with landmark_count 0");
+    object->characters.push_back(rigged(*resolve<MeshObject>(mesh)));
+  });
+}
+
 uint64_t focal_training_set_landmark_count(const focal_training_set* set) {
   return guarded_value<uint64_t>(0,
                                  [&] { return resolve<TrainingSetObject>(set)->set.landmark_names.size(); });
 }
 
 uint64_t focal_training_set_mesh_count(const focal_training_set* set) {
-  return guarded_value<uint64_t>(0, [&] { return resolve<TrainingSetObject>(set)->set.shapes.size(); });
+  return guarded_value<uint64_t>(0, [&] {
+    const auto object = resolve<TrainingSetObject>(set);
+    return object->set.shapes.size() + object->characters.size();
+  });
 }

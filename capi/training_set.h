@@ -1,10 +1,12 @@
 // focal_training_set: the builder of what training starts from.
 #pragma once
 #include <memory>
+#include <vector>
 
 #include "context.h"
 #include "handles.h"
 #include "landmarks/training_set.h"
+#include "skeleton/rigged_shapes.h"
 
 namespace focal {
 
@@ -14,6 +16,7 @@ struct TrainingSetObject {
 
   std::shared_ptr<const ContextObject> context;
   TrainingSet set;
+  std::vector<RiggedMesh> characters;  // of a set without landmark names: these follow from their skeletons
 };
 
 }  // namespace focal

@@ -18,4 +18,10 @@ void check(focal_status status, const std::string& about) {
   throw CommandError(about + message, std::move(hint));
 }
 
+std::vector<std::string> joint_names_of(const focal_model* model) {
+  std::vector<std::string> names(focal_model_joint_count(model));
+  for (uint32_t i = 0; i < names.size(); ++i) names[i] = focal_model_joint_name(model, i);
+  return names;
+}
+
 }  // namespace focal_cli

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace focal_cli {
 
@@ -23,6 +24,7 @@ using Mesh = Owned<focal_mesh, focal_mesh_destroy>;
 using TrainingSet = Owned<focal_training_set, focal_training_set_destroy>;
 using Model = Owned<focal_model, focal_model_destroy>;
 using Detection = Owned<focal_detection, focal_detection_destroy>;
+using Skeleton = Owned<focal_skeleton, focal_skeleton_destroy>;
 
 // Throws the library's own message and hint, after `about` ("mesh 'a': ") where the library cannot know it.
 void check(focal_status status, const std::string& about = "");
@@ -42,5 +44,8 @@ Struct initialised(focal_status (*init)(Struct*, size_t)) {
   check(init(&value, sizeof value));
   return value;
 }
+
+// Of the skeleton that a model of rigged characters has learned; empty for others.
+std::vector<std::string> joint_names_of(const focal_model* model);
 
 }  // namespace focal_cli

@@ -32,6 +32,7 @@ Json model_json(const focal_model* model, const std::string& path) {
           {"file_bytes", info.file_bytes},
           {"preset", preset_name(info.preset)},
           {"landmarks", landmark_names_of(model)},
+          {"joints", joint_names_of(model)},
           {"shapes", info.shape_count},
           {"mean_vertices", info.mean_vertex_count},
           {"samples", info.sample_count},

@@ -35,6 +35,7 @@ const char* preset_name(focal_preset preset);
 // The verbs, each in its own file; each adds its subcommand, which runs as the command line is parsed.
 void add_train(CLI::App& app);
 void add_detect(CLI::App& app);
+void add_rig(CLI::App& app);
 void add_eval(CLI::App& app);
 void add_cross_validate(CLI::App& app);
 void add_info(CLI::App& app);

@@ -2,10 +2,12 @@
 #include <chrono>
 #include <iostream>
 
+#include "command_error.h"
 #include "marked_mesh.h"
 #include "output.h"
 #include "parameters.h"
 #include "progress.h"
+#include "report.h"
 #include "text_table.h"
 
 namespace focal_cli {
@@ -13,6 +15,7 @@ namespace {
 
 struct Options : CommonOptions, TrainOptions {
   std::string set, output, split = "train";
+  std::vector<std::string> rigs;
   size_t limit = 0;
 };
 
@@ -43,7 +46,48 @@ Json report_of(const Options& options, const SetFolder& set, const std::vector<s
           {"backend", backend_name(focal_context_backend(context))}};
 }
 
+// Landmarks follow from the skeletons; nothing has to be marked.
+void train_on_rigs(const Options& options) {
+  const auto start = std::chrono::steady_clock::now();
+  check_output_folder(options.output);
+  const Context context = make_context(options);
+  Progress progress(options.quiet);
+  const auto training_set = owned<TrainingSet>(focal_training_set_create, context.get(),
+                                               static_cast<const char* const*>(nullptr), uint64_t{0});
+  for (const std::string& path : options.rigs) {
+    progress.begin("loading " + path);
+    const Mesh mesh = load_mesh(context.get(), path);
+    check(focal_training_set_add_rig(training_set.get(), mesh.get()), path + ": ");
+  }
+  const focal_train_params params = train_params_of(options, options);
+  const auto model = owned<Model>(focal_model_train, training_set.get(), &params, progress.begin("training"));
+  check(focal_model_save(model.get(), options.output.c_str()));
+  progress.clear();
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  auto info = initialised(focal_model_info_init);
+  check(focal_model_get_info(model.get(), &info));
+  const std::vector<std::string> joints = joint_names_of(model.get());
+  if (options.json)
+    print_json({{"model", options.output},
+                {"rigs", options.rigs},
+                {"joints", joints},
+                {"landmarks", landmark_names_of(model.get())},
+                {"shapes", info.shape_count},
+                {"file_bytes", info.file_bytes},
+                {"seconds", seconds},
+                {"peak_memory_bytes", focal_peak_memory_bytes()},
+                {"backend", backend_name(focal_context_backend(context.get()))}});
+  if (options.prints_text())
+    std::cout << "Learned " << joints.size() << " joints and " << info.landmark_count << " landmarks from "
+              << options.rigs.size() << " rigged character" << (options.rigs.size() == 1 ? "" : "s") << " in "
+              << fixed_text(seconds, 1) << " s.\n"
+              << options.output << ": " << bytes_text(static_cast<double>(info.file_bytes)) << "\n";
+}
+
 void train(const Options& options) {
+  if (options.rigs.empty() == options.set.empty())
+    throw CommandError("give either a SET or --rigs", "'focal train --help' shows both");
+  if (!options.rigs.empty()) return train_on_rigs(options);
   const auto start = std::chrono::steady_clock::now();
   const SetFolder set = read_set(options.set);
   const std::vector<std::string> names = set.meshes(options.split, options.limit);
@@ -71,11 +115,16 @@ void train(const Options& options) {
 }  // namespace
 
 void add_train(CLI::App& app) {
-  CLI::App* verb = app.add_subcommand("train", "Learn landmarks from a set of marked meshes");
+  CLI::App* verb = app.add_subcommand(
+      "train", "Learn landmarks from a set of marked meshes, or a skeleton from rigged characters");
   const auto options = std::make_shared<Options>();
   verb->add_option("SET", options->set, "Folder with set.json, NAME.glb and NAME.landmarks.json")
-      ->type_name("")
-      ->required();
+      ->type_name("");
+  verb->add_option("--rigs", options->rigs,
+                   "Instead of SET: rigged characters of one skeleton, .glb; one is enough. Learns their "
+                   "skeleton and skin "
+                   "weights for 'focal rig', with landmarks that follow from them")
+      ->type_name("A.glb B.glb ...");
   verb->add_option("-o,--output", options->output, "Model file to write")->type_name("MODEL")->required();
   verb->add_option("--split", options->split, "Meshes to learn from: train, test, extra or all")
       ->type_name("NAME")

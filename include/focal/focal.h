@@ -93,9 +93,9 @@ typedef struct focal_model focal_model;               /* what training makes */
 typedef struct focal_detection focal_detection;       /* landmarks found on one mesh */
 typedef struct focal_analysis focal_analysis; /* what is computed of a mesh before any model is asked */
 typedef struct focal_correspondence focal_correspondence; /* reserved: maps between two detected meshes */
-typedef struct focal_skeleton focal_skeleton; /* reserved: joints and skin weights from a detection */
-typedef struct focal_task focal_task;         /* progress and cancellation [any thread] */
-typedef struct focal_blob focal_blob;         /* a block of bytes */
+typedef struct focal_skeleton focal_skeleton;             /* joints and skin weights for one mesh */
+typedef struct focal_task focal_task;                     /* progress and cancellation [any thread] */
+typedef struct focal_blob focal_blob;                     /* a block of bytes */
 
 /* ---- Context ---- */
 
@@ -251,7 +251,7 @@ FOCAL_API focal_status focal_mesh_point_at_vertex(const focal_mesh* mesh, uint32
 /* ---- Training set [builder] ---- */
 
 /* landmark_names: landmark_count (1..4096) different, non-empty names; every mesh is then marked in this
- * order. */
+ * order. Or NULL and 0: a set of rigged characters, see focal_training_set_add_rig. */
 FOCAL_API focal_status focal_training_set_create(const focal_context* context,
                                                  const char* const* landmark_names, uint64_t landmark_count,
                                                  focal_training_set** out_set);
@@ -266,6 +266,12 @@ FOCAL_API focal_status focal_training_set_add(focal_training_set* set, const foc
                                               const focal_surface_point* landmarks, uint64_t landmark_count);
 FOCAL_API focal_status focal_training_set_add_vertices(focal_training_set* set, const focal_mesh* mesh,
                                                        const uint32_t* vertices, uint64_t landmark_count);
+
+/* Adds a rigged character, loaded with focal_mesh_load_gltf, to a set made without landmark names. Landmarks are placed by its
+ * skeleton: no point has to be marked. One character is enough: it is learned in other poses and proportions too. Several
+ * should share one skeleton: joints are matched by name, and those of at least half of the characters are learned.
+ * Errors: INVALID_ARGUMENT (a set with landmark names; no file kept; no skin; no vertex that a joint moves), INVALID_FILE. */
+FOCAL_API focal_status focal_training_set_add_rig(focal_training_set* set, const focal_mesh* mesh);
 
 FOCAL_API uint64_t focal_training_set_landmark_count(const focal_training_set* set);
 FOCAL_API uint64_t focal_training_set_mesh_count(const focal_training_set* set);
@@ -292,6 +298,12 @@ typedef struct focal_train_params {
       proxy_vertices; /* meshes with more vertices are analysed on a decimated copy of about so many, here and
                              in detection; 0: as they are. Default 3500; preset paper: 0 */
   uint64_t seed;      /* same seed, same bits. Default 0 */
+  int32_t
+      learn_confidence; /* by leaving shapes out in turn, about two thirds of the time. Default 1; without it every
+                               confidence is about a half, and nothing is told absent. Preset paper has none */
+  int32_t
+      rigged_shapes; /* learned of rigged characters in all, copies in other poses included; at least half as many
+                               again as there are characters. Default 16 */
 } focal_train_params;
 
 /* init fills the default preset; set_preset refills every field with the values of one preset. */
@@ -481,6 +493,80 @@ FOCAL_API focal_status focal_detection_write_gltf(const focal_detection* detecti
 /* Writes a .glb of the surface with the vote maps as vertex colours, to look at: each vertex in
  * the hue of the landmark with the strongest vote there. UNSUPPORTED when votes were not kept. */
 FOCAL_API focal_status focal_detection_write_votes_gltf(const focal_detection* detection, const char* path);
+
+/* ---- Skeleton ---- */
+
+typedef int32_t focal_bone_names;
+enum {
+  FOCAL_BONE_NAMES_AS_TRAINED = 0,
+  FOCAL_BONE_NAMES_VRM = 1,    /* VRM 1.0: hips, leftUpperArm */
+  FOCAL_BONE_NAMES_MIXAMO = 2, /* mixamorig:Hips, mixamorig:LeftArm */
+  FOCAL_BONE_NAMES_UNREAL = 3, /* pelvis, upperarm_l */
+  FOCAL_BONE_NAMES_RIGIFY = 4, /* DEF-spine, DEF-upper_arm.L */
+  FOCAL_BONE_NAMES_UNITY = 5   /* Hips, LeftUpperArm; Godot's too */
+};
+
+typedef struct focal_skeleton_params {
+  uint32_t struct_size;
+  focal_bone_names
+      names; /* default AS_TRAINED. Bones that the convention does not know keep their names, with a warning */
+  /* Names of your own, one for each joint in the model's order (see focal_model_joint_name); NULL, or NULL for one of them:
+   * as above. joint_name_count: the model's joint_count, or 0. */
+  const char* const* joint_names;
+  uint64_t joint_name_count;
+} focal_skeleton_params;
+
+FOCAL_API focal_status focal_skeleton_params_init(focal_skeleton_params* params, size_t struct_size);
+
+/* The skeleton that a model of rigged characters has learned: number of joints (0: none) and their names, parents first. */
+FOCAL_API uint32_t focal_model_joint_count(const focal_model* model);
+FOCAL_API const char* focal_model_joint_name(const focal_model* model, uint32_t index);
+
+/* Joints and skin weights for the mesh of a detection, in the pose that it has; about a second. params and task may be NULL.
+ * Errors: INVALID_ARGUMENT (the model was not learned from rigged characters; fewer than three landmarks found), CANCELLED.
+ * It keeps the detection alive. */
+FOCAL_API focal_status focal_skeleton_create(const focal_detection* detection,
+                                             const focal_skeleton_params* params, focal_task* task,
+                                             focal_skeleton** out_skeleton);
+FOCAL_API focal_status focal_skeleton_destroy(focal_skeleton* skeleton);
+
+typedef struct focal_skeleton_info {
+  uint32_t struct_size;
+  uint32_t joint_count;
+  uint32_t warning_count;       /* focal_skeleton_warning */
+  uint32_t max_influences;      /* of one vertex; at most 4 */
+  uint64_t vertex_count;        /* of the caller's mesh */
+  uint64_t unweighted_vertices; /* those that no triangle uses */
+} focal_skeleton_info;
+
+FOCAL_API focal_status focal_skeleton_info_init(focal_skeleton_info* info, size_t struct_size);
+FOCAL_API focal_status focal_skeleton_get_info(const focal_skeleton* skeleton, focal_skeleton_info* out_info);
+
+typedef struct focal_joint {
+  uint32_t struct_size;
+  int32_t parent;    /* index of a joint before it; -1: a root */
+  const char* name;  /* lives as long as the skeleton */
+  double confidence; /* 0..1: how well the training characters agree on its place */
+  float position[3];
+  float rotation
+      [4]; /* quaternion x, y, z, w: from the joint's own axes, those of the training characters, to the mesh's */
+  float tip[3]; /* the far end of its part of the surface */
+} focal_joint;
+
+FOCAL_API focal_status focal_joint_init(focal_joint* joint, size_t struct_size);
+FOCAL_API focal_status focal_skeleton_get_joint(const focal_skeleton* skeleton, uint32_t index,
+                                                focal_joint* out_joint);
+
+/* Four influences for each of the caller's vertices, heaviest first: joint numbers and weights, vertex_count x 4. Weights sum to
+ * 1; all 0 where no triangle uses the vertex. vertex_count must be the mesh's. */
+FOCAL_API focal_status focal_skeleton_weights(const focal_skeleton* skeleton, uint64_t vertex_count,
+                                              uint32_t* out_joints, float* out_weights);
+
+FOCAL_API const char* focal_skeleton_warning(const focal_skeleton* skeleton, uint32_t index);
+
+/* Writes the caller's own glTF, nothing lost, with the skeleton, a skin for every mesh it shows, and the landmarks as
+ * focal_detection_write_gltf does. Same rules for the path, same errors. */
+FOCAL_API focal_status focal_skeleton_write_gltf(const focal_skeleton* skeleton, const char* path);
 
 #ifdef __cplusplus
 }

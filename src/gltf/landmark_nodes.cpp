@@ -1,5 +1,4 @@
-// Landmarks put into the caller's own glTF document: new parts are made as text, parsed, and swapped into place, so
-// that the rest of the document is carried through untouched.
+// Landmarks put into the caller's own glTF document.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -7,36 +6,17 @@
 #include <string>
 
 #include "base/error.h"
+#include "gltf/document_edit.h"
 #include "gltf/glb.h"
-#include "gltf/json.h"
-#include "gltf/preflight.h"
 #include "gltf/writer.h"
 
 namespace focal {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = OrderedJson;
 
 constexpr const char* kGroupName = "focal_landmarks";
 constexpr const char* kVersion = "1";
-
-// Swaps parsed text into `slot`; what was there is freed by the document that held the new part.
-void put(Json& slot, const std::string& text) {
-  OrderedJsonDocument part(std::as_bytes(std::span(text)), {});
-  slot.swap(part.root());
-}
-
-// A member, made as an empty value of this kind when missing.
-Json& member_or_new(Json& object, const char* key, Json::value_t kind) {
-  Json& value = object[key];
-  if (value.is_null()) value = Json(kind);
-  return value;
-}
-
-Json* find(Json& object, const char* key) {
-  const auto found = object.find(key);
-  return found == object.end() ? nullptr : &*found;
-}
 
 // extras.focal of an element, or null.
 Json* focal_extras(Json& element) {
@@ -66,7 +46,6 @@ class LandmarkInserter {
   void add_mesh_extras(std::span<const GltfLandmark> landmarks);
 
  private:
-  Json& scene();
   size_t take_node();
   void release_former_nodes(Json& scene_nodes);
   const GltfPrimitive& primitive_of(const GltfLandmark& landmark) const;
@@ -75,24 +54,6 @@ class LandmarkInserter {
   std::span<const GltfPrimitive> primitives_;
   std::vector<size_t> free_nodes_;  // of an earlier call, last first
 };
-
-// The scene that is shown, or the first. A file without any gets one that shows all its roots.
-Json& LandmarkInserter::scene() {
-  Json& scenes = member_or_new(root_, "scenes", Json::value_t::array);
-  const Json* chosen = find(root_, "scene");
-  if (!scenes.empty()) return scenes[chosen ? chosen->get<size_t>() : 0];
-  Json& nodes = member_or_new(root_, "nodes", Json::value_t::array);
-  std::vector<bool> is_child(nodes.size());
-  for (Json& node : nodes)
-    if (const Json* children = find(node, "children"))
-      for (const Json& child : *children) is_child[child.get<size_t>()] = true;
-  scenes.emplace_back(Json::value_t::object);
-  Json& roots = member_or_new(scenes[0], "nodes", Json::value_t::array);
-  for (size_t node = 0; node < is_child.size(); ++node)
-    if (!is_child[node]) roots.push_back(node);
-  root_["scene"] = 0;
-  return scenes[0];
-}
 
 // The group of an earlier call leaves the scene, and its nodes may be used again. (Removing them would renumber the
 // nodes behind them.) One to which the user has hung something of his own stays.
@@ -134,7 +95,7 @@ size_t LandmarkInserter::take_node() {
 
 void LandmarkInserter::add_nodes(std::span<const GltfLandmark> landmarks) {
   Json& nodes = member_or_new(root_, "nodes", Json::value_t::array);
-  Json& scene_nodes = member_or_new(scene(), "nodes", Json::value_t::array);
+  Json& scene_nodes = member_or_new(shown_scene(root_), "nodes", Json::value_t::array);
   release_former_nodes(scene_nodes);
   const size_t group = take_node();
   std::string children;
@@ -209,12 +170,7 @@ std::vector<std::byte> add_landmarks(std::span<const std::byte> source,
   LandmarkInserter inserter(document.root(), primitives);
   inserter.add_nodes(landmarks);
   inserter.add_mesh_extras(landmarks);
-  const std::string_view before(reinterpret_cast<const char*>(container.json.data()), container.json.size());
-  const bool indented = before.find('\n') != std::string_view::npos;
-  const std::string text = document.root().dump(indented ? 2 : -1);
-  if (container.binary) return glb_bytes(text, container.rest);
-  const auto bytes = std::as_bytes(std::span(text));
-  return {bytes.begin(), bytes.end()};
+  return edited_file(container, document.root());
 }
 
 }  // namespace focal

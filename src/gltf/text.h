@@ -2,6 +2,7 @@
 #pragma once
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,5 +18,7 @@ std::optional<std::string> percent_decoded(std::string_view uri);
 // Bytes of the base64 payload of a "data:...;base64,..." URI; nothing when malformed. RFC 2397, RFC 4648.
 std::optional<std::vector<std::byte>> data_uri_bytes(std::string_view uri);
 bool is_data_uri(std::string_view uri);
+
+std::string base64(std::span<const std::byte> bytes);
 
 }  // namespace focal

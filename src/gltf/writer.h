@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gltf/reader.h"
+#include "mesh/rig.h"
 #include "mesh/triangle_mesh.h"
 
 namespace focal {
@@ -34,5 +35,20 @@ struct GltfLandmark {
 std::vector<std::byte> add_landmarks(std::span<const std::byte> source,
                                      std::span<const GltfPrimitive> primitives,
                                      std::span<const GltfLandmark> landmarks, const GltfLimits& limits = {});
+
+struct GltfRig {
+  const Rig* rig =
+      nullptr;  // on the merged mesh of read_gltf: bind matrices rigid, one entry of influences a vertex
+  std::vector<Vector3>
+      tips;  // per joint where its part ends, world coordinates; a leaf joint gets a node there. Or none
+};
+
+// The source file (the same kind comes back) with a skeleton and skin weights for every mesh that it shows: a scene root
+// "focal_skeleton" with the joints below it, their places and rotations those of the bind matrices. Meshes that had a skin get
+// this one; a node that may not carry a skin (it has a place or a parent) hands its mesh to a new scene root of its name.
+// Everything else stays. Data goes into the BIN chunk, or into a data: URI in a .gltf. Throws what parse_gltf throws, and
+// invalid_argument (a rig of another mesh, more than 65,536 joints, not finite).
+std::vector<std::byte> add_skin(std::span<const std::byte> source, std::span<const GltfPrimitive> primitives,
+                                const GltfRig& rig, const GltfLimits& limits = {});
 
 }  // namespace focal

@@ -306,8 +306,14 @@ LandmarkModel train(const TrainingSet& set, const TrainParams& params, const Exe
 }
 
 ModelInfo info_of(const LandmarkModel& model) {
-  ModelInfo info{model.landmark_names,    model.params,         model.shape_count,
-                 model.mean_vertex_count, model.targets.rows(), 0};
+  ModelInfo info{model.landmark_names,
+                 model.params,
+                 model.shape_count,
+                 model.mean_vertex_count,
+                 model.targets.rows(),
+                 0,
+                 {}};
+  for (const SkeletonJoint& joint : model.skeleton) info.joint_names.push_back(joint.name);
   for (const auto& forest : model.forests)
     for (const auto& tree : forest.trees) info.tree_node_count += static_cast<int64_t>(tree.feature.size());
   return info;

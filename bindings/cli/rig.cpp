@@ -1,0 +1,160 @@
+// focal rig: the skeleton and skin weights of a model's characters, put into a mesh's own glTF.
+#include <algorithm>
+#include <chrono>
+#include <iostream>
+#include <map>
+
+#include "command_error.h"
+#include "files.h"
+#include "landmark_text.h"
+#include "marked_mesh.h"
+#include "output.h"
+#include "parameters.h"
+#include "progress.h"
+#include "text_table.h"
+
+namespace focal_cli {
+namespace {
+
+struct Options : CommonOptions {
+  std::string model, mesh, output, names;
+  focal_quality quality = FOCAL_QUALITY_BEST;
+};
+
+const std::map<std::string, focal_bone_names> conventions = {
+    {"vrm", FOCAL_BONE_NAMES_VRM},       {"mixamo", FOCAL_BONE_NAMES_MIXAMO},
+    {"unreal", FOCAL_BONE_NAMES_UNREAL}, {"rigify", FOCAL_BONE_NAMES_RIGIFY},
+    {"unity", FOCAL_BONE_NAMES_UNITY},   {"godot", FOCAL_BONE_NAMES_UNITY}};
+
+// A JSON object from the model's joint names to others; a joint that it lacks keeps its name.
+std::vector<std::string> names_from_file(const std::string& path, const std::vector<std::string>& joints) {
+  const Json file = Json::parse(read_text_file(path), nullptr, false);
+  if (!file.is_object())
+    throw CommandError(path + " is not an object of joint names", R"(write {"hips": "Pelvis", ...})");
+  std::vector<std::string> names = joints;
+  for (const auto& [joint, name] : file.items()) {
+    const auto at = std::find(joints.begin(), joints.end(), joint);
+    if (at == joints.end() || !name.is_string() || name.get_ref<const std::string&>().empty())
+      throw CommandError(path + ": '" + joint + "' is no joint of the model, or its name is no text",
+                         "'focal info MODEL' lists the joints");
+    names[static_cast<size_t>(at - joints.begin())] = name.get<std::string>();
+  }
+  return names;
+}
+
+Skeleton skeleton_of(const Options& options, const focal_model* model, const focal_detection* detection,
+                     focal_task* task) {
+  auto params = initialised(focal_skeleton_params_init);
+  std::vector<std::string> names;
+  std::vector<const char*> pointers;
+  const auto convention = conventions.find(options.names);
+  if (convention != conventions.end()) {
+    params.names = convention->second;
+  } else if (!options.names.empty()) {
+    names = names_from_file(options.names, joint_names_of(model));
+    for (const std::string& name : names) pointers.push_back(name.c_str());
+    params.joint_names = pointers.data(), params.joint_name_count = pointers.size();
+  }
+  return owned<Skeleton>(focal_skeleton_create, detection, &params, task);
+}
+
+Json triple(const float* values) { return {tidy(values[0]), tidy(values[1]), tidy(values[2])}; }
+
+Json report_of(const focal_skeleton* skeleton, const focal_detection* detection, const Options& options,
+               double seconds) {
+  auto info = initialised(focal_skeleton_info_init);
+  check(focal_skeleton_get_info(skeleton, &info));
+  auto found = initialised(focal_detection_info_init);
+  check(focal_detection_get_info(detection, &found));
+  std::vector<focal_joint> joints(info.joint_count);
+  Json list = Json::array(), warnings = Json::array();
+  for (uint32_t i = 0; i < info.joint_count; ++i) {
+    joints[i] = initialised(focal_joint_init);
+    check(focal_skeleton_get_joint(skeleton, i, &joints[i]));
+    const int32_t parent = joints[i].parent;
+    list.push_back({{"name", joints[i].name},
+                    {"parent", parent < 0 ? Json() : Json(joints[static_cast<size_t>(parent)].name)},
+                    {"position", triple(joints[i].position)},
+                    {"tip", triple(joints[i].tip)},
+                    {"confidence", joints[i].confidence}});
+  }
+  for (uint32_t i = 0; i < found.warning_count; ++i)
+    warnings.push_back(focal_detection_warning(detection, i));
+  for (uint32_t i = 0; i < info.warning_count; ++i) warnings.push_back(focal_skeleton_warning(skeleton, i));
+  return {{"mesh", options.mesh},
+          {"output", options.output},
+          {"joints", list},
+          {"weights",
+           {{"max_influences", info.max_influences}, {"unweighted_vertices", info.unweighted_vertices}}},
+          {"category_fit", found.category_fit},
+          {"warnings", warnings},
+          {"seconds", seconds}};
+}
+
+void print_rig(const Json& report) {
+  std::vector<std::vector<std::string>> rows = {{"joint", "parent", "x", "y", "z", "confidence"}};
+  for (const Json& joint : report["joints"]) {
+    std::vector<std::string> row = {joint["name"],
+                                    joint["parent"].is_null() ? "-" : joint["parent"].get<std::string>()};
+    for (size_t axis = 0; axis < 3; ++axis)
+      row.push_back(fixed_text(joint["position"][axis].get<double>(), 4));
+    row.push_back(percent_text(joint["confidence"].get<double>(), 0));
+    rows.push_back(std::move(row));
+  }
+  print_table(std::cout, rows);
+  std::cout << "\n"
+            << report["output"].get<std::string>() << " in " << fixed_text(report["seconds"].get<double>(), 2)
+            << " s; fits the category: " << percent_text(report["category_fit"].get<double>(), 0) << "\n";
+}
+
+void rig(const Options& options) {
+  const auto start = std::chrono::steady_clock::now();
+  check_output_folder(options.output);
+  const Context context = make_context(options);
+  Progress progress(options.quiet);
+  const auto model = owned<Model>(focal_model_load, context.get(), options.model.c_str());
+  if (focal_model_joint_count(model.get()) == 0)
+    throw CommandError("the model knows no skeleton",
+                       "train one on rigged characters: focal train --rigs A.glb -o MODEL");
+  const Mesh mesh = load_mesh(context.get(), options.mesh);
+  auto params = detect_params_of(options.quality, options);
+  params.keep_votes = 0;
+  const auto detection = owned<Detection>(focal_model_detect, model.get(), mesh.get(), &params,
+                                          progress.begin("detecting", 0, 2));
+  const Skeleton skeleton =
+      skeleton_of(options, model.get(), detection.get(), progress.begin("rigging", 1, 2));
+  check(focal_skeleton_write_gltf(skeleton.get(), options.output.c_str()));
+  progress.clear();
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const Json report = report_of(skeleton.get(), detection.get(), options, seconds);
+  if (options.json) print_json(report);
+  if (!options.prints_text()) return;
+  print_rig(report);
+  for (const Json& warning : report["warnings"])
+    std::cerr << "warning: " << warning.get<std::string>() << "\n";
+}
+
+}  // namespace
+
+void add_rig(CLI::App& app) {
+  CLI::App* verb =
+      app.add_subcommand("rig", "Give a mesh the skeleton and skin weights of a model's characters");
+  const auto options = std::make_shared<Options>();
+  verb->add_option("MODEL", options->model, "Model of rigged characters: focal train --rigs")
+      ->type_name("")
+      ->required();
+  verb->add_option("MESH", options->mesh, "glTF file, .glb or .gltf")->type_name("")->required();
+  verb->add_option("-o,--output", options->output, "The mesh's own file with skeleton, skin and landmarks")
+      ->type_name("OUT.glb")
+      ->required();
+  verb->add_option("--names", options->names,
+                   "What bones are called: vrm, mixamo, unreal, rigify, unity, godot, or a JSON file of the "
+                   "model's joint "
+                   "names and yours; without it as on the characters")
+      ->type_name("NAMES");
+  add_quality_option(*verb, options->quality);
+  add_common_options(*verb, *options);
+  verb->callback([options] { rig(*options); });
+}
+
+}  // namespace focal_cli

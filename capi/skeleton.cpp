@@ -1,0 +1,188 @@
+#include "skeleton.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <utility>
+
+#include "arguments.h"
+#include "base/atomic_file.h"
+#include "base/error.h"
+#include "boundary.h"
+#include "gltf/writer.h"
+#include "skeleton/bone_names.h"
+#include "structs.h"
+#include "surface_points.h"
+#include "task.h"
+
+namespace focal {
+
+template <>
+struct StructTraits<focal_skeleton_params> {
+  static constexpr const char* name = "focal_skeleton_params";
+  static constexpr size_t first_size = sizeof(focal_skeleton_params);
+  static focal_skeleton_params defaults() { return {}; }
+};
+static_assert(sizeof(void*) != 8 || (sizeof(focal_skeleton_params) == 24 &&
+                                     offsetof(focal_skeleton_params, joint_name_count) == 16));
+
+template <>
+struct StructTraits<focal_skeleton_info> {
+  static constexpr const char* name = "focal_skeleton_info";
+  static constexpr size_t first_size = 32;
+  static focal_skeleton_info defaults() { return {}; }
+};
+static_assert(sizeof(focal_skeleton_info) == 32 && offsetof(focal_skeleton_info, unweighted_vertices) == 24);
+
+template <>
+struct StructTraits<focal_joint> {
+  static constexpr const char* name = "focal_joint";
+  static constexpr size_t first_size = sizeof(focal_joint);
+  static focal_joint defaults() { return {}; }
+};
+static_assert(sizeof(void*) != 8 || (sizeof(focal_joint) == 64 && offsetof(focal_joint, tip) == 52));
+
+namespace {
+
+void rename_joints(const focal_skeleton_params& params, TransferredRig& rig) {
+  check_range("focal_skeleton_params.names", params.names, FOCAL_BONE_NAMES_AS_TRAINED,
+              FOCAL_BONE_NAMES_UNITY);
+  auto& joints = rig.rig.joints;
+  if (params.joint_names ? params.joint_name_count != joints.size() : params.joint_name_count != 0)
+    throw Error(Status::invalid_argument,
+                "focal_skeleton_params.joint_name_count is " + std::to_string(params.joint_name_count) +
+                    ", the model has " + std::to_string(joints.size()) + " joints",
+                "give one name, or NULL, for each joint of the model");
+  std::vector<std::string> names, unknown;
+  for (const Joint& joint : joints) names.push_back(joint.name);
+  names = bone_names(names, static_cast<BoneNames>(params.names), unknown);
+  for (const std::string& name : unknown)
+    rig.warnings.push_back("bone '" + name + "' has no name in this convention and keeps its own");
+  for (size_t j = 0; j < joints.size(); ++j)
+    joints[j].name = params.joint_names && params.joint_names[j] ? params.joint_names[j] : names[j];
+}
+
+focal_joint to_abi(const TransferredRig& rig, size_t index) {
+  const Joint& from = rig.rig.joints[index];
+  focal_joint to{};
+  to.parent = from.parent;
+  to.name = from.name.c_str();
+  to.confidence = rig.confidence[index];
+  position_out(from.bind.topRightCorner<3, 1>(), to.position);
+  position_out(rig.tip[index], to.tip);
+  const Eigen::Quaterniond q(Matrix3(from.bind.topLeftCorner<3, 3>()));
+  for (int i = 0; i < 4; ++i) to.rotation[i] = static_cast<float>(q.coeffs()[i]);
+  return to;
+}
+
+}  // namespace
+}  // namespace focal
+
+using namespace focal;
+
+focal_status focal_skeleton_params_init(focal_skeleton_params* params, size_t struct_size) {
+  return guarded([&] { init_struct(params, struct_size); });
+}
+
+uint32_t focal_model_joint_count(const focal_model* model) {
+  return guarded_value<uint32_t>(
+      0, [&] { return static_cast<uint32_t>(resolve<ModelObject>(model)->info.joint_names.size()); });
+}
+
+const char* focal_model_joint_name(const focal_model* model, uint32_t index) {
+  return guarded_value<const char*>(nullptr, [&] {
+    return text_at(resolve<ModelObject>(model)->info.joint_names, index, "the model", "joints");
+  });
+}
+
+focal_status focal_skeleton_create(const focal_detection* detection, const focal_skeleton_params* params,
+                                   focal_task* task, focal_skeleton** out_skeleton) {
+  return guarded([&] {
+    require(out_skeleton, "out_skeleton");
+    const auto object = std::make_shared<SkeletonObject>();
+    object->detection = resolve<DetectionObject>(detection);
+    const focal_skeleton_params how = read_struct(params);
+    const TaskLease lease(task);
+    const Execution execution = object->detection->model->context->execution_with(lease.task());
+    execution.check_cancelled();
+    object->rig = transfer_rig(object->detection->detection, execution);
+    rename_joints(how, object->rig);
+    object->detection->model->context->report_warnings(object->rig.warnings);
+    *out_skeleton = publish(object);
+  });
+}
+
+focal_status focal_skeleton_destroy(focal_skeleton* skeleton) {
+  return remove_handle(skeleton, HandleType::skeleton);
+}
+
+focal_status focal_skeleton_info_init(focal_skeleton_info* info, size_t struct_size) {
+  return guarded([&] { init_struct(info, struct_size); });
+}
+
+focal_status focal_skeleton_get_info(const focal_skeleton* skeleton, focal_skeleton_info* out_info) {
+  return guarded([&] {
+    const auto object = resolve<SkeletonObject>(skeleton);
+    const auto& influences = object->rig.rig.influences;
+    focal_skeleton_info info{};
+    info.joint_count = static_cast<uint32_t>(object->rig.rig.joints.size());
+    info.warning_count = static_cast<uint32_t>(object->rig.warnings.size());
+    info.vertex_count = influences.size();
+    for (const VertexInfluences& one : influences) {
+      const auto used = static_cast<uint32_t>(
+          std::count_if(one.begin(), one.end(), [](const Influence& i) { return i.weight > 0; }));
+      info.max_influences = std::max(info.max_influences, used);
+      info.unweighted_vertices += used == 0;
+    }
+    write_result(out_info, info);
+  });
+}
+
+focal_status focal_joint_init(focal_joint* joint, size_t struct_size) {
+  return guarded([&] { init_struct(joint, struct_size); });
+}
+
+focal_status focal_skeleton_get_joint(const focal_skeleton* skeleton, uint32_t index,
+                                      focal_joint* out_joint) {
+  return guarded([&] {
+    const auto object = resolve<SkeletonObject>(skeleton);
+    check_index(index, object->rig.rig.joints.size(), "the skeleton", "joints");
+    write_result(out_joint, to_abi(object->rig, index));
+  });
+}
+
+focal_status focal_skeleton_weights(const focal_skeleton* skeleton, uint64_t vertex_count,
+                                    uint32_t* out_joints, float* out_weights) {
+  return guarded([&] {
+    require(out_joints, "out_joints");
+    require(out_weights, "out_weights");
+    const auto object = resolve<SkeletonObject>(skeleton);
+    const auto& influences = object->rig.rig.influences;
+    if (vertex_count != influences.size())
+      throw Error(Status::invalid_argument,
+                  "vertex_count is " + std::to_string(vertex_count) + ", the mesh has " +
+                      std::to_string(influences.size()) + " vertices",
+                  "pass room for four joints and weights for each vertex of the mesh");
+    for (size_t v = 0; v < influences.size(); ++v)
+      for (size_t i = 0; i < influences[v].size(); ++i) {
+        out_joints[4 * v + i] = static_cast<uint32_t>(influences[v][i].joint);
+        out_weights[4 * v + i] = influences[v][i].weight;
+      }
+  });
+}
+
+const char* focal_skeleton_warning(const focal_skeleton* skeleton, uint32_t index) {
+  return guarded_value<const char*>(nullptr, [&] {
+    return text_at(resolve<SkeletonObject>(skeleton)->rig.warnings, index, "the skeleton", "warnings");
+  });
+}
+
+focal_status focal_skeleton_write_gltf(const focal_skeleton* skeleton, const char* path) {
+  return guarded([&] {
+    const auto object = resolve<SkeletonObject>(skeleton);
+    const auto file = path_of(path);
+    SourceFile source = source_file(*object->detection->mesh, file);
+    source.bytes =
+        add_skin(source.bytes, source.primitives, {&object->rig.rig, object->rig.tip}, source.limits);
+    write_file_atomically(file, with_landmarks(*object->detection, source));
+  });
+}

@@ -1,0 +1,21 @@
+// focal_skeleton: joints and skin weights for one mesh.
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "detection.h"
+#include "handles.h"
+#include "skeleton/rig_transfer.h"
+
+namespace focal {
+
+struct SkeletonObject {
+  using Handle = focal_skeleton;
+  static constexpr HandleType type = HandleType::skeleton;
+
+  std::shared_ptr<const DetectionObject> detection;
+  TransferredRig rig;
+};
+
+}  // namespace focal

@@ -1,0 +1,35 @@
+// Small edits of the caller's own glTF document: new parts are made as text, parsed, and swapped into place, so that the rest of
+// the document is carried through untouched.
+#pragma once
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gltf/json.h"
+#include "gltf/preflight.h"
+
+namespace focal {
+
+using OrderedJson = nlohmann::ordered_json;
+
+// Swaps parsed text into `slot`; what was there is freed by the document that held the new part.
+void put(OrderedJson& slot, const std::string& text);
+
+// A member, made as an empty value of this kind when missing.
+OrderedJson& member_or_new(OrderedJson& object, const char* key, OrderedJson::value_t kind);
+
+OrderedJson* find(OrderedJson& object, const char* key);  // null when there is none
+
+// Appends a parsed element to a list of the root; its index.
+size_t append_element(OrderedJson& root, const char* list, const std::string& text);
+
+// The scene that is shown, or the first. A file without any gets one that shows all its roots.
+OrderedJson& shown_scene(OrderedJson& root);
+
+// The file again, of the kind it came as. bin: takes the place of its BIN chunk, or becomes it; empty: as it was.
+std::vector<std::byte> edited_file(const GltfContainer& container, const OrderedJson& root,
+                                   std::span<const std::byte> bin = {});
+
+}  // namespace focal

@@ -1,0 +1,276 @@
+// A skeleton and skin weights put into the caller's own glTF document.
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+
+#include "base/error.h"
+#include "gltf/document_edit.h"
+#include "gltf/glb.h"
+#include "gltf/text.h"
+#include "gltf/writer.h"
+
+namespace focal {
+namespace {
+
+using Json = OrderedJson;
+
+constexpr int32_t most_joints = 65536;  // what 16 bits number
+
+template <class T>
+void append(std::vector<std::byte>& bytes, const std::vector<T>& values) {
+  const auto data = std::as_bytes(std::span(values));
+  bytes.insert(bytes.end(), data.begin(), data.end());
+}
+
+std::string quaternion_json(const Matrix3& rotation) {
+  const Eigen::Quaterniond q(rotation);
+  return "[" + json_number(q.x()) + "," + json_number(q.y()) + "," + json_number(q.z()) + "," +
+         json_number(q.w()) + "]";
+}
+
+class SkinInserter {
+ public:
+  SkinInserter(Json& root, std::span<const GltfPrimitive> primitives, const GltfRig& rig,
+               std::span<const std::byte> bin, bool owns_bin)
+      : root_(root), primitives_(primitives), rig_(rig), data_(bin.begin(), bin.end()), owns_bin_(owns_bin) {}
+
+  void add();
+  // The BIN chunk of a .glb, the old one included; empty when the data went into a buffer of its own.
+  std::vector<std::byte> bin() const { return owns_bin_ ? data_ : std::vector<std::byte>{}; }
+
+ private:
+  void begin_data();
+  void end_data();
+  template <class T>
+  size_t add_accessor(const std::vector<T>& values, size_t count, const std::string& format,
+                      bool is_attribute);
+  void add_joint_nodes();
+  size_t skin_for(const Matrix4& world_transform);
+  void add_weights(const GltfPrimitive& primitive);
+  void attach(const GltfPrimitive& primitive, size_t skin);
+  void spare_other_instances(int32_t mesh, int32_t node);
+  void retire_former_skins(size_t count);
+  Json& nodes() { return member_or_new(root_, "nodes", Json::value_t::array); }
+
+  Json& root_;
+  std::span<const GltfPrimitive> primitives_;
+  const GltfRig& rig_;
+  std::vector<std::byte> data_;  // of buffer_, from its beginning
+  bool owns_bin_;
+  size_t buffer_ = 0;
+  std::vector<size_t> joint_node_;
+  std::vector<std::pair<Matrix4, size_t>> skins_;
+};
+
+void SkinInserter::begin_data() {
+  Json& buffers = member_or_new(root_, "buffers", Json::value_t::array);
+  // Buffer 0 without a URI is the BIN chunk; where it is something else, a buffer of our own is hung behind.
+  owns_bin_ = owns_bin_ && (buffers.empty() || !find(buffers[0], "uri"));
+  if (owns_bin_ && !buffers.empty()) {
+    data_.resize(buffers[0]["byteLength"].get<size_t>());  // without the chunk's padding
+    return;
+  }
+  data_.clear();
+  buffer_ = append_element(root_, "buffers", R"({"byteLength":0})");
+}
+
+void SkinInserter::end_data() {
+  Json& buffer = root_["buffers"][buffer_];
+  buffer["byteLength"] = data_.size();
+  if (!owns_bin_) buffer["uri"] = "data:application/octet-stream;base64," + base64(data_);
+}
+
+template <class T>
+size_t SkinInserter::add_accessor(const std::vector<T>& values, size_t count, const std::string& format,
+                                  bool is_attribute) {
+  data_.resize((data_.size() + 3) / 4 * 4);
+  const size_t view = append_element(root_, "bufferViews",
+                                     R"({"buffer":)" + std::to_string(buffer_) + R"(,"byteOffset":)" +
+                                         std::to_string(data_.size()) + R"(,"byteLength":)" +
+                                         std::to_string(values.size() * sizeof(T)) +
+                                         (is_attribute ? R"(,"target":34962})" : "}"));
+  append(data_, values);
+  return append_element(root_, "accessors",
+                        R"({"bufferView":)" + std::to_string(view) + R"(,"count":)" + std::to_string(count) +
+                            "," + format + "}");
+}
+
+// One node a joint, below one root: glTF wants a common root in the scene. A tip is a node without a part in the skin.
+void SkinInserter::add_joint_nodes() {
+  const auto& joints = rig_.rig->joints;
+  std::vector<std::string> children(joints.size());
+  std::string roots;
+  const size_t first = nodes().size();
+  size_t next = first + joints.size();
+  for (size_t j = 0; j < joints.size(); ++j) {
+    joint_node_.push_back(first + j);
+    std::string& list = joints[j].parent < 0 ? roots : children[joints[j].parent];
+    list += (list.empty() ? "" : ",") + std::to_string(joint_node_[j]);
+  }
+  std::vector<std::string> tips;
+  for (size_t j = 0; j < joints.size(); ++j) {
+    if (!children[j].empty() || rig_.tips.empty()) continue;
+    const Vector3 tip = (joints[j].bind.inverse() * rig_.tips[j].homogeneous()).head<3>();
+    tips.push_back(R"({"name":)" + json_string(joints[j].name + "_tip") + R"(,"translation":)" +
+                   json_array(tip) + R"(,"extras":{"focal":{"tip":true}}})");
+    children[j] = std::to_string(next++);
+  }
+  for (size_t j = 0; j < joints.size(); ++j) {
+    Matrix4 local = joints[j].bind;
+    if (joints[j].parent >= 0) local = joints[joints[j].parent].bind.inverse() * local;
+    append_element(root_, "nodes",
+                   R"({"name":)" + json_string(joints[j].name) + R"(,"translation":)" +
+                       json_array(local.topRightCorner<3, 1>()) + R"(,"rotation":)" +
+                       quaternion_json(local.topLeftCorner<3, 3>()) +
+                       (children[j].empty() ? "" : R"(,"children":[)" + children[j] + "]") + "}");
+  }
+  for (const std::string& tip : tips) append_element(root_, "nodes", tip);
+  const size_t armature = append_element(
+      root_, "nodes",
+      R"({"name":"focal_skeleton","children":[)" + roots + R"(],"extras":{"focal":{"version":1}}})");
+  member_or_new(shown_scene(root_), "nodes", Json::value_t::array).push_back(armature);
+}
+
+// The inverse bind matrices hold the place of the mesh, which glTF ignores on a skinned node: one skin for each such place.
+size_t SkinInserter::skin_for(const Matrix4& world_transform) {
+  for (const auto& [transform, skin] : skins_)
+    if (transform == world_transform) return skin;
+  std::vector<float> inverse_bind;
+  std::string list;
+  for (size_t j = 0; j < joint_node_.size(); ++j) {
+    Matrix4 inverse = rig_.rig->joints[j].bind.inverse() * world_transform;
+    inverse.row(3) << 0, 0, 0, 1;
+    for (const double x : inverse.reshaped()) inverse_bind.push_back(static_cast<float>(x));
+    list += (j ? "," : "") + std::to_string(joint_node_[j]);
+  }
+  const size_t accessor =
+      add_accessor(inverse_bind, joint_node_.size(), R"("componentType":5126,"type":"MAT4")", false);
+  const size_t skin = append_element(
+      root_, "skins",
+      R"({"inverseBindMatrices":)" + std::to_string(accessor) + R"(,"joints":[)" + list + "]}");
+  skins_.emplace_back(world_transform, skin);
+  return skin;
+}
+
+void SkinInserter::add_weights(const GltfPrimitive& primitive) {
+  std::vector<uint8_t> narrow;
+  std::vector<uint16_t> wide;
+  std::vector<float> weights;
+  const bool fits = rig_.rig->joints.size() <= 256;
+  for (int32_t v = 0; v < primitive.vertex_count; ++v) {
+    VertexInfluences influences = rig_.rig->influences[primitive.first_vertex + v];
+    if (!(influences[0].weight > 0))
+      influences[0] = {0, 1};  // a vertex of no triangle: glTF wants a sum of 1
+    for (const Influence& one : influences) {
+      const int32_t joint = one.weight > 0 ? one.joint : 0;
+      fits ? narrow.push_back(static_cast<uint8_t>(joint)) : wide.push_back(static_cast<uint16_t>(joint));
+      weights.push_back(std::max(one.weight, 0.0f));
+    }
+  }
+  const auto count = static_cast<size_t>(primitive.vertex_count);
+  const size_t joints = fits ? add_accessor(narrow, count, R"("componentType":5121,"type":"VEC4")", true)
+                             : add_accessor(wide, count, R"("componentType":5123,"type":"VEC4")", true);
+  const size_t shares = add_accessor(weights, count, R"("componentType":5126,"type":"VEC4")", true);
+  Json& attributes = root_["meshes"][primitive.mesh]["primitives"][primitive.primitive]["attributes"];
+  for (int set = 0;; ++set) {
+    const std::string number = std::to_string(set);
+    if (attributes.erase("JOINTS_" + number) + attributes.erase("WEIGHTS_" + number) == 0) break;
+  }
+  attributes["JOINTS_0"] = joints, attributes["WEIGHTS_0"] = shares;
+}
+
+// Other nodes that show the mesh keep it as it was.
+void SkinInserter::spare_other_instances(int32_t mesh, int32_t node) {
+  std::optional<size_t> copy;
+  for (size_t n = 0; n < nodes().size(); ++n) {
+    Json& other = nodes()[n];
+    const Json* shown = find(other, "mesh");
+    if (static_cast<int32_t>(n) == node || !shown || shown->get<int32_t>() != mesh) continue;
+    if (!copy) copy = append_element(root_, "meshes", root_["meshes"][mesh].dump());
+    other["mesh"] = *copy;
+  }
+}
+
+// The mesh's node gets the skin when it is a root without a place of its own; else a new root takes the mesh over.
+void SkinInserter::attach(const GltfPrimitive& primitive, size_t skin) {
+  Json& roots = member_or_new(shown_scene(root_), "nodes", Json::value_t::array);
+  std::string name = R"("name":)" + json_string("mesh" + std::to_string(primitive.mesh)) + ",";
+  if (primitive.node >= 0) {
+    Json& node = nodes()[primitive.node];
+    const bool is_root = std::any_of(roots.begin(), roots.end(),
+                                     [&](const Json& n) { return n.get<int32_t>() == primitive.node; });
+    const bool has_place =
+        find(node, "matrix") || find(node, "translation") || find(node, "rotation") || find(node, "scale");
+    if (is_root && !has_place) {
+      node["skin"] = skin;
+      return;
+    }
+    const Json* own = find(node, "name");
+    if (own && own->is_string()) name = R"("name":)" + json_string(own->get<std::string>()) + ",";
+    if (const Json* weights = find(node, "weights")) name += R"("weights":)" + weights->dump() + ",";
+    for (const char* key : {"mesh", "skin", "weights"}) node.erase(key);
+  }
+  roots.push_back(append_element(root_, "nodes",
+                                 "{" + name + R"("mesh":)" + std::to_string(primitive.mesh) + R"(,"skin":)" +
+                                     std::to_string(skin) + "}"));
+}
+
+// Skins that no node uses any more stay, since their joints may move something else, but without the optional root: it is wrong
+// in many files (Blender's older exporter), and nobody reads it now.
+void SkinInserter::retire_former_skins(size_t count) {
+  std::vector<bool> used(count);
+  for (Json& node : nodes())
+    if (const Json* skin = find(node, "skin"); skin && skin->get<size_t>() < count)
+      used[skin->get<size_t>()] = true;
+  for (size_t skin = 0; skin < count; ++skin)
+    if (!used[skin]) root_["skins"][skin].erase("skeleton");
+}
+
+void SkinInserter::add() {
+  const Json* former = find(root_, "skins");
+  const size_t former_skins = former ? former->size() : 0;
+  begin_data();
+  add_joint_nodes();
+  std::map<int32_t, const GltfPrimitive*> meshes;
+  for (const GltfPrimitive& primitive : primitives_)
+    if (meshes.emplace(primitive.mesh, &primitive).second)
+      spare_other_instances(primitive.mesh, primitive.node);
+  for (const GltfPrimitive& primitive : primitives_) add_weights(primitive);
+  for (const auto& [mesh, primitive] : meshes) attach(*primitive, skin_for(primitive->world_transform));
+  retire_former_skins(former_skins);
+  end_data();
+}
+
+void check(std::span<const GltfPrimitive> primitives, const GltfRig& rig) {
+  const auto joints = rig.rig->joints.size();
+  size_t vertices = 0;
+  for (const GltfPrimitive& primitive : primitives)
+    vertices =
+        std::max<size_t>(vertices, static_cast<size_t>(primitive.first_vertex) + primitive.vertex_count);
+  if (joints == 0 || joints > most_joints || vertices != rig.rig->influences.size() ||
+      (!rig.tips.empty() && rig.tips.size() != joints))
+    throw Error(Status::invalid_argument, "the rig does not suit the mesh",
+                "pass the rig made for this mesh");
+  for (const Joint& joint : rig.rig->joints)
+    if (!joint.bind.cast<float>().allFinite())
+      throw Error(Status::invalid_argument, "joint " + json_string(joint.name) + " is not finite",
+                  "scale the mesh");
+}
+
+}  // namespace
+
+std::vector<std::byte> add_skin(std::span<const std::byte> source, std::span<const GltfPrimitive> primitives,
+                                const GltfRig& rig, const GltfLimits& limits) {
+  check(primitives, rig);
+  const GltfContainer container = open_container(source, limits);
+  parse_gltf(container, limits);  // every reference followed below is checked here
+  OrderedJsonDocument document(container.json, {.depth = limits.json_depth, .values = limits.json_values});
+  SkinInserter inserter(document.root(), primitives, rig, container.bin, container.binary);
+  inserter.add();
+  return edited_file(container, document.root(), inserter.bin());
+}
+
+}  // namespace focal

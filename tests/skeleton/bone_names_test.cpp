@@ -1,0 +1,51 @@
+// Every bone has one name in each convention, and they lead back to it.
+#include "skeleton/bone_names.h"
+
+#include <doctest/doctest.h>
+
+#include <set>
+
+using namespace focal;
+
+TEST_CASE("known bones in every convention") {
+  CHECK(bone_name("leftUpperArm", BoneNames::mixamo) == "mixamorig:LeftArm");
+  CHECK(bone_name("mixamorig:RightForeArm", BoneNames::unreal) == "lowerarm_r");
+  CHECK(bone_name("calf_l", BoneNames::rigify) == "DEF-shin.L");
+  CHECK(bone_name("DEF-spine", BoneNames::vrm) == "hips");
+  CHECK(bone_name("RightHandPinky2", BoneNames::vrm) == "rightLittleIntermediate");
+  CHECK(bone_name("head", BoneNames::unity) == "Head");
+  CHECK(bone_name("Tail3", BoneNames::as_trained) == "Tail3");
+  CHECK_FALSE(bone_name("Tail3", BoneNames::vrm).has_value());
+}
+
+TEST_CASE("there and back again, and no two bones share a name") {
+  const std::vector<std::string> bones = {"hips",
+                                          "spine",
+                                          "chest",
+                                          "upperChest",
+                                          "neck",
+                                          "head",
+                                          "leftShoulder",
+                                          "rightShoulder",
+                                          "leftUpperArm",
+                                          "rightLowerArm",
+                                          "leftHand",
+                                          "leftUpperLeg",
+                                          "rightLowerLeg",
+                                          "leftFoot",
+                                          "rightToes",
+                                          "leftThumbMetacarpal",
+                                          "rightIndexDistal",
+                                          "leftLittleProximal"};
+  for (const auto convention : {BoneNames::mixamo, BoneNames::unreal, BoneNames::rigify, BoneNames::unity}) {
+    std::vector<std::string> unknown;
+    const auto names = bone_names(bones, convention, unknown);
+    CHECK(unknown.empty());
+    CHECK(std::set<std::string>(names.begin(), names.end()).size() == bones.size());
+    CHECK(bone_names(names, BoneNames::vrm, unknown) == bones);
+  }
+  std::vector<std::string> unknown;
+  CHECK(bone_names({"hips", "wing.L"}, BoneNames::unity, unknown) ==
+        std::vector<std::string>{"Hips", "wing.L"});
+  CHECK(unknown == std::vector<std::string>{"wing.L"});
+}

@@ -1,0 +1,174 @@
+// One rigged sample humanoid teaches a skeleton, which is put on others, of other build and pose.
+#include "skeleton/rig_transfer.h"
+
+#include <doctest/doctest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "base/error.h"
+#include "creatures/character.h"
+#include "landmarks/model_file.h"
+#include "landmarks/train.h"
+#include "skeleton/rig_landmarks.h"
+#include "skeleton/rigged_shapes.h"
+
+using namespace focal;
+
+namespace {
+
+const Execution execution = [] {
+  Execution two;
+  two.thread_count = 2;
+  return two;
+}();
+
+creatures::Character humanoid(uint64_t seed) {
+  const auto& families = creatures::families();
+  const auto family =
+      std::find_if(families.begin(), families.end(), [](const auto& f) { return f.name == "humanoid"; });
+  return creatures::make_character(*family, "humanoid", seed);
+}
+
+std::shared_ptr<const PreparedMesh> mesh_of(const std::vector<creatures::Vec3>& positions,
+                                            const creatures::Character& from) {
+  TriangleMesh mesh;
+  mesh.positions.resize(static_cast<Eigen::Index>(positions.size()), 3);
+  for (size_t v = 0; v < positions.size(); ++v) mesh.positions.row(v) = positions[v];
+  mesh.triangles.resize(static_cast<Eigen::Index>(from.rest.triangles.size()), 3);
+  for (size_t t = 0; t < from.rest.triangles.size(); ++t)
+    for (int i = 0; i < 3; ++i) mesh.triangles(t, i) = from.rest.triangles[t][i];
+  return std::make_shared<const PreparedMesh>(prepare(std::move(mesh)));
+}
+
+RiggedMesh rigged(const creatures::Character& from) {
+  RiggedMesh result{mesh_of(from.rest.positions, from), {}};
+  for (const auto& joint : from.skeleton.joints) {
+    Joint one{joint.name, joint.parent, Matrix4::Identity()};
+    one.bind.topRightCorner<3, 1>() = joint.rest;
+    result.rig.joints.push_back(one);
+  }
+  for (const auto& skin : from.skin) {
+    std::vector<Influence> influences;
+    for (int k = 0; k < creatures::max_influences; ++k)
+      influences.push_back({skin.joints[k], static_cast<float>(skin.weights[k])});
+    result.rig.influences.push_back(heaviest(influences));
+  }
+  return result;
+}
+
+TrainParams small() {
+  return {.eigenpair_count = 80,
+          .tree_count = 10,
+          .proxy_vertices = 1500,
+          .spoiled_copies = 0,
+          .learns_confidence = false};
+}
+
+std::shared_ptr<const LandmarkModel> model() {
+  static const auto one = [] {
+    const TrainingSet set = training_set_of({rigged(humanoid(1))}, {.shapes = 8, .landmarks = 40});
+    return std::make_shared<const LandmarkModel>(train(set, small(), execution));
+  }();
+  return one;
+}
+
+double height(const TriangleMesh& mesh) {
+  return mesh.positions.col(1).maxCoeff() - mesh.positions.col(1).minCoeff();
+}
+
+}  // namespace
+
+TEST_CASE("landmarks follow from a skeleton: the same points on copies in other poses") {
+  const TrainingSet set = training_set_of({rigged(humanoid(1))}, {.shapes = 4, .landmarks = 40});
+  REQUIRE(set.shapes.size() == 4);
+  CHECK(set.landmark_names.size() >= 25);
+  CHECK(set.landmark_names.size() <= 40);
+  CHECK(set.skeleton.size() == humanoid(1).skeleton.joints.size());
+  for (const MarkedShape& shape : set.shapes) {
+    CHECK(std::count_if(shape.marks.begin(), shape.marks.end(), [](const auto& m) {
+            return m.has_value();
+          }) == static_cast<std::ptrdiff_t>(set.landmark_names.size()));
+    // A joint's ring stays round the joint: its marks lie no farther than a limb is thick.
+    for (size_t l = 0; l < set.landmark_names.size(); ++l) {
+      const std::string& name = set.landmark_names[l];
+      if (name.find("LowerArm ") == std::string::npos || name.ends_with("tip")) continue;
+      for (size_t j = 0; j < set.skeleton.size(); ++j)
+        if (name.starts_with(set.skeleton[j].name + " "))
+          CHECK(
+              (position_of(shape.mesh->surface, *shape.marks[l]) - shape.rig->bind[j]->topRightCorner<3, 1>())
+                  .norm() < 0.12);
+    }
+  }
+}
+
+TEST_CASE("another humanoid in another pose gets its skeleton and weights") {
+  for (const uint64_t seed : {11, 12}) {
+    const creatures::Character other = humanoid(seed);
+    const auto mesh = mesh_of(other.posed, other);
+    const Detection detection = detect(model(), mesh, {}, execution);
+    const TransferredRig found = transfer_rig(detection, execution);
+    REQUIRE(found.rig.joints.size() == other.skeleton.joints.size());
+    double error = 0;
+    for (const Joint& joint : found.rig.joints)
+      for (size_t t = 0; t < other.skeleton.joints.size(); ++t)
+        if (other.skeleton.joints[t].name == joint.name)
+          error += (joint.bind.topRightCorner<3, 1>() - other.pose[t] * other.skeleton.joints[t].rest).norm();
+    CHECK(error / static_cast<double>(found.rig.joints.size()) < 0.04 * height(mesh->source));
+    double difference = 0;
+    for (size_t v = 0; v < found.rig.influences.size(); ++v) {
+      float sum = 0;
+      std::vector<double> weight(found.rig.joints.size(), 0);
+      for (const Influence& one : found.rig.influences[v]) sum += one.weight, weight[one.joint] += one.weight;
+      CHECK(sum == doctest::Approx(1).epsilon(1e-5));
+      for (int k = 0; k < creatures::max_influences; ++k)
+        for (size_t j = 0; j < weight.size(); ++j)
+          if (found.rig.joints[j].name == other.skeleton.joints[other.skin[v].joints[k]].name)
+            weight[j] -= other.skin[v].weights[k];
+      for (const double w : weight) difference += std::abs(w);
+    }
+    CHECK(difference / static_cast<double>(found.rig.influences.size()) < 0.5);
+  }
+}
+
+TEST_CASE("a model with a skeleton goes through its file and rigs the same") {
+  const auto bytes = serialise(*model());
+  const auto loaded = std::make_shared<const LandmarkModel>(parse_model(bytes));
+  REQUIRE(loaded->skeleton.size() == model()->skeleton.size());
+  CHECK(loaded->skeleton[3].name == model()->skeleton[3].name);
+  CHECK(loaded->skeleton[3].parent == model()->skeleton[3].parent);
+  CHECK(serialise(*loaded) == bytes);
+  auto damaged = bytes;
+  damaged.resize(damaged.size() - 1);
+  CHECK_THROWS_AS(parse_model(damaged), Error);
+}
+
+TEST_CASE("characters without weights, or a model without a skeleton, are refused with a hint") {
+  CHECK_THROWS_AS(training_set_of({}), Error);
+  RiggedMesh idle = rigged(humanoid(1));
+  for (auto& influences : idle.rig.influences) influences = {};
+  CHECK_THROWS_AS(training_set_of({idle}), Error);
+}
+
+TEST_CASE("controls that move nothing are left out, joints that others lack hand their weights on") {
+  RiggedMesh one = rigged(humanoid(1)), two = one, three = one;
+  for (RiggedMesh* character : {&one, &two, &three})
+    character->rig.joints.push_back({"poleTarget", 0, Matrix4::Identity()});
+  // An extra joint of one character alone takes over the left hand's vertices.
+  const auto hand = static_cast<int32_t>(std::find_if(one.rig.joints.begin(), one.rig.joints.end(),
+                                                      [](const Joint& j) { return j.name == "leftHand"; }) -
+                                         one.rig.joints.begin());
+  REQUIRE(hand < static_cast<int32_t>(one.rig.joints.size()));
+  one.rig.joints.push_back({"extra", hand, Matrix4::Identity()});
+  const auto extra = static_cast<int32_t>(one.rig.joints.size()) - 1;
+  for (auto& influences : one.rig.influences)
+    for (Influence& i : influences)
+      if (i.joint == hand && i.weight > 0) i.joint = extra;
+  const TrainingSet set = training_set_of({one, two, three}, {.shapes = 3, .landmarks = 10});
+  for (const SkeletonJoint& joint : set.skeleton)
+    CHECK((joint.name != "poleTarget" && joint.name != "extra"));
+  CHECK(set.shapes[0].rig->influences[100][0].joint == set.shapes[1].rig->influences[100][0].joint);
+  const RowMatrixf a = weights_below(set.skeleton, set.shapes[0].rig->influences),
+                   b = weights_below(set.skeleton, set.shapes[1].rig->influences);
+  CHECK((a - b).cwiseAbs().maxCoeff() < 1e-5);
+}
