@@ -53,6 +53,8 @@ const char* name_of(HandleType type) {
       return "focal_detection";
     case HandleType::skeleton:
       return "focal_skeleton";
+    case HandleType::correspondence:
+      return "focal_correspondence";
     case HandleType::task:
       return "focal_task";
     case HandleType::blob:

@@ -15,6 +15,7 @@ enum class HandleType : int32_t {
   analysis,
   detection,
   skeleton,
+  correspondence,
   task,
   blob
 };

@@ -92,7 +92,7 @@ typedef struct focal_training_set focal_training_set; /* marked meshes [builder]
 typedef struct focal_model focal_model;               /* what training makes */
 typedef struct focal_detection focal_detection;       /* landmarks found on one mesh */
 typedef struct focal_analysis focal_analysis; /* what is computed of a mesh before any model is asked */
-typedef struct focal_correspondence focal_correspondence; /* reserved: maps between two detected meshes */
+typedef struct focal_correspondence focal_correspondence; /* a map between two detected meshes */
 typedef struct focal_skeleton focal_skeleton;             /* joints and skin weights for one mesh */
 typedef struct focal_task focal_task;                     /* progress and cancellation [any thread] */
 typedef struct focal_blob focal_blob;                     /* a block of bytes */
@@ -493,6 +493,49 @@ FOCAL_API focal_status focal_detection_write_gltf(const focal_detection* detecti
 /* Writes a .glb of the surface with the vote maps as vertex colours, to look at: each vertex in
  * the hue of the landmark with the strongest vote there. UNSUPPORTED when votes were not kept. */
 FOCAL_API focal_status focal_detection_write_votes_gltf(const focal_detection* detection, const char* path);
+
+/* ---- Correspondence ---- */
+
+/* A point of the target for every vertex of the source, both detected with the same model (preset default); about a second.
+ * Landmarks correspond by their number. task may be NULL. Errors: INVALID_ARGUMENT (different models; fewer than three
+ * landmarks found on both), CANCELLED. It keeps both meshes alive. */
+FOCAL_API focal_status focal_correspondence_create(const focal_detection* source,
+                                                   const focal_detection* target, focal_task* task,
+                                                   focal_correspondence** out_correspondence);
+FOCAL_API focal_status focal_correspondence_destroy(focal_correspondence* correspondence);
+
+/* Points of the target, one for each vertex of the source (FOCAL_NO_TRIANGLE where no triangle uses the vertex).
+ * vertex_count must be the source's. */
+FOCAL_API focal_status focal_correspondence_points(const focal_correspondence* correspondence,
+                                                   uint64_t vertex_count, focal_surface_point* out_points);
+
+/* Carries a value for each vertex of the target (a region, a weight, a colour channel) over to the source; 0 where no triangle
+ * uses a vertex. The counts must be those of the meshes. */
+FOCAL_API focal_status focal_correspondence_carry(const focal_correspondence* correspondence,
+                                                  uint64_t target_vertex_count, const float* target_values,
+                                                  uint64_t vertex_count, float* out_values);
+
+/* ---- Segmentation ---- */
+
+typedef int32_t focal_segmentation;
+enum {
+  FOCAL_SEGMENTATION_AUTO = 0,     /* SKELETON where the model has one, else GEODESIC */
+  FOCAL_SEGMENTATION_GEODESIC = 1, /* the landmark nearest along the surface; labels are landmark numbers */
+  FOCAL_SEGMENTATION_K_MEANS =
+      2, /* Xia et al. 2016: clusters of position and SI-HKS that start at the landmarks */
+  FOCAL_SEGMENTATION_SKELETON =
+      3 /* the joint that moves it most; labels are joint numbers (focal_model_joint_name) */
+};
+
+/* A label for each of the caller's triangles, -1 where there is none. task may be NULL. triangle_count must be the mesh's.
+ * Errors: INVALID_ARGUMENT (SKELETON with a model that has none), CANCELLED. */
+FOCAL_API focal_status focal_detection_segment(const focal_detection* detection, focal_segmentation method,
+                                               focal_task* task, uint64_t triangle_count,
+                                               int32_t* out_labels);
+
+/* Writes a .glb of the mesh with its parts as vertex colours, to look at. */
+FOCAL_API focal_status focal_detection_write_segments_gltf(const focal_detection* detection,
+                                                           focal_segmentation method, const char* path);
 
 /* ---- Skeleton ---- */
 

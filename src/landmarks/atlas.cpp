@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "landmarks/embedded_surface.h"
 #include "mesh/nearest_vertex.h"
 
 namespace focal {
@@ -49,58 +50,6 @@ void remember_rig(const SurfaceAnalysis& analysis, const std::vector<int32_t>& s
   }
 }
 
-// The point of the triangles round a vertex whose embedding is nearest to `place`.
-class EmbeddedSurface {
- public:
-  EmbeddedSurface(const TriangleMesh& mesh, const RowMatrixf& Phi, const Eigen::MatrixXf& C)
-      : mesh_(mesh), Phi_(Phi), C_(C) {}
-
-  SurfacePoint nearest(const std::vector<int32_t>& triangles, const Eigen::VectorXf& place) const {
-    SurfacePoint best;
-    float least = std::numeric_limits<float>::infinity();
-    for (const int32_t t : triangles) {
-      const Eigen::VectorXf a = embedded(t, 0), ab = embedded(t, 1) - a, ac = embedded(t, 2) - a,
-                            ap = place - a;
-      const Vector3 weight =
-          closest_weights(ab.squaredNorm(), ab.dot(ac), ac.squaredNorm(), ab.dot(ap), ac.dot(ap));
-      const float away =
-          (ap - static_cast<float>(weight[1]) * ab - static_cast<float>(weight[2]) * ac).squaredNorm();
-      if (away < least) least = away, best = {t, weight};
-    }
-    return best;
-  }
-
- private:
-  Eigen::VectorXf embedded(int32_t t, int corner) const {
-    return C_ * Phi_.row(mesh_.triangles(t, corner)).head(C_.cols()).transpose();
-  }
-
-  // Weights of the nearest point of a triangle, from the products of its sides from corner a and of the way to p.
-  static Vector3 closest_weights(double bb, double bc, double cc, double bp, double cp) {
-    const double det = bb * cc - bc * bc;
-    if (det > 0) {
-      const double b = (cc * bp - bc * cp) / det, c = (bb * cp - bc * bp) / det;
-      if (b >= 0 && c >= 0 && b + c <= 1) return {1 - b - c, b, c};
-    }
-    // Outside: the nearest of the three sides' nearest points.
-    const auto clamped = [](double along, double length) {
-      return length > 0 ? std::clamp(along / length, 0.0, 1.0) : 0.0;
-    };
-    const double b = clamped(bp, bb), c = clamped(cp, cc);
-    const double side = clamped(bb - bc + cp - bp, bb - 2 * bc + cc);  // from b to c
-    const Vector3 options[3] = {{1 - b, b, 0}, {1 - c, 0, c}, {0, 1 - side, side}};
-    const auto cost = [&](const Vector3& w) {  // squared distance, less a constant
-      return w[1] * w[1] * bb + 2 * w[1] * w[2] * bc + w[2] * w[2] * cc - 2 * (w[1] * bp + w[2] * cp);
-    };
-    return *std::min_element(options, options + 3,
-                             [&](const auto& x, const auto& y) { return cost(x) < cost(y); });
-  }
-
-  const TriangleMesh& mesh_;
-  const RowMatrixf& Phi_;
-  const Eigen::MatrixXf& C_;
-};
-
 // Where each remembered point starts: at the spread vertex with the most similar distances to the landmarks of both.
 std::vector<int32_t> first_images(const AtlasShape& shape, float reach, const std::vector<int32_t>& landmark,
                                   const RowMatrixf& fields, const std::vector<int32_t>& spread) {
@@ -122,7 +71,9 @@ CarriedMarks carry(const AtlasShape& shape, const FunctionalMap& map, const Surf
                    const std::vector<std::vector<int32_t>>& triangles_at) {
   const auto L = static_cast<int32_t>(shape.marked.size());
   const auto points = static_cast<int32_t>(shape.distances.rows());
-  const EmbeddedSurface embedded(analysis.surface(), analysis.eigenfunctions, map.C);
+  const EmbeddedSurface embedded(analysis.surface(), [&](int32_t v) -> Eigen::VectorXf {
+    return map.C * analysis.eigenfunctions.row(v).head(map.C.cols()).transpose();
+  });
   CarriedMarks result;
   result.residual = map.residual;
   result.point.resize(L);
@@ -225,9 +176,7 @@ std::vector<CarriedMarks> carry_marks(const std::vector<AtlasShape>& atlas, floa
                                       const RowMatrixf& fields, const CarryParams& params,
                                       const Execution& execution) {
   const auto maps = map_shapes(atlas, reach, analysis, landmark, fields, params, execution);
-  std::vector<std::vector<int32_t>> triangles_at(analysis.surface().vertex_count());
-  for (int32_t t = 0; t < analysis.surface().triangle_count(); ++t)
-    for (int i = 0; i < 3; ++i) triangles_at[analysis.surface().triangles(t, i)].push_back(t);
+  const auto triangles_at = triangles_round(analysis.surface());
   std::vector<CarriedMarks> result(maps.size());
   parallel_for(execution, static_cast<int64_t>(maps.size()), [&](int64_t i) {
     result[i] = carry(atlas[maps[i].shape], maps[i].map, analysis, triangles_at);

@@ -7,8 +7,8 @@
 
 #include "base/error.h"
 #include "landmarks/atlas.h"
+#include "mesh/similarity.h"
 #include "skeleton/rig_landmarks.h"
-#include "skeleton/similarity.h"
 
 namespace focal {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "mesh/similarity.h"
 #include "skeleton/rig_landmarks.h"
-#include "skeleton/similarity.h"
 
 namespace focal {
 namespace {

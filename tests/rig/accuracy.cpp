@@ -1,16 +1,20 @@
 // How well skeletons and skin weights are transferred: learns from rigged characters, rigs others in unknown poses, prints errors.
 // Not a test with bounds: the figures go into docs/accuracy.md.
 //   focal_rig_accuracy [--train A,B] [--test C,D] [--model FILE] [--seed N]
-// Names of makehuman in FOCAL_EVALUATION_DATA; by default its train and test splits. --model: kept there and used again.
+// Names of makehuman in FOCAL_EVALUATION_DATA, or of --set FOLDER that focal_creatures wrote; by default its train and test
+// splits. --model: kept there and used again.
 // --test left-out: of the training split the last four meshes are judged, by the others, to choose between ways.
 #include <Eigen/Geometry>
 #include <cstdio>
 #include <iostream>
 #include <map>
+#include <set>
 #include <sstream>
 
 #include "base/atomic_file.h"
+#include "base/random.h"
 #include "base/stopwatch.h"
+#include "correspondence/segmentation.h"
 #include "evaluation_data.h"
 #include "gltf/skin.h"
 #include "landmarks/model_file.h"
@@ -72,6 +76,7 @@ struct Errors {
   std::vector<double> joints;  // of body height
   std::map<std::string, std::vector<double>> by_joint;
   double weights = 0, posed = 0, chamfer = 0, seconds = 0;
+  double parts = 0, k_means = 0, random_k_means = 0;  // mean intersection over union
   double height = 0;
 };
 
@@ -109,6 +114,68 @@ double weight_difference(const TransferredRig& found, const Truth& truth) {
   return sum / static_cast<double>(found.rig.influences.size());
 }
 
+// Per vertex the number, among the truth's names, of the joint that moves it most.
+std::vector<int32_t> main_joints(const Rig& rig, const Truth& truth) {
+  std::vector<int32_t> result;
+  for (const auto& influences : rig.influences) {
+    const std::string& name = rig.joints[influences[0].joint].name;
+    result.push_back(
+        static_cast<int32_t>(std::find(truth.name.begin(), truth.name.end(), name) - truth.name.begin()));
+  }
+  return result;
+}
+
+// Mean over the true labels, by area.
+double mean_iou(const std::vector<int32_t>& found, const std::vector<int32_t>& truth,
+                const std::vector<double>& area) {
+  std::map<int32_t, double> both, any;
+  for (size_t t = 0; t < truth.size(); ++t) {
+    any[truth[t]] += area[t];
+    if (found[t] == truth[t])
+      both[truth[t]] += area[t];
+    else
+      any[found[t]] += area[t];
+  }
+  double sum = 0, count = 0;
+  const std::set<int32_t> labels(truth.begin(), truth.end());
+  for (const int32_t label : labels) sum += both[label] / any[label], ++count;
+  return sum / count;
+}
+
+// Each cluster takes the true label that most of it has: the best that can be said for it.
+std::vector<int32_t> named_by_truth(const std::vector<int32_t>& cluster, const std::vector<int32_t>& truth,
+                                    const std::vector<double>& area) {
+  std::map<int32_t, std::map<int32_t, double>> votes;
+  for (size_t t = 0; t < truth.size(); ++t) votes[cluster[t]][truth[t]] += area[t];
+  std::vector<int32_t> result;
+  for (const int32_t c : cluster)
+    result.push_back(std::max_element(votes[c].begin(), votes[c].end(), [](const auto& a, const auto& b) {
+                       return a.second < b.second;
+                     })->first);
+  return result;
+}
+
+void judge_parts(const Detection& detection, const TransferredRig& found, const Truth& truth,
+                 Errors& errors) {
+  const PreparedMesh& mesh = *detection.mesh;
+  std::vector<double> area;
+  for (int32_t t = 0; t < mesh.source.triangle_count(); ++t) {
+    const Vector3 a = mesh.source.positions.row(mesh.source.triangles(t, 0)),
+                  b = mesh.source.positions.row(mesh.source.triangles(t, 1)),
+                  c = mesh.source.positions.row(mesh.source.triangles(t, 2));
+    area.push_back((b - a).cross(c - a).norm());
+  }
+  const auto true_labels = triangle_labels(mesh, main_joints(truth.rig, truth));
+  errors.parts = mean_iou(triangle_labels(mesh, main_joints(found.rig, truth)), true_labels, area);
+  const auto clusters = segment_k_means(detection, execution);
+  errors.k_means = mean_iou(named_by_truth(clusters, true_labels, area), true_labels, area);
+  Random random(1);
+  const auto seeds = sample_without_replacement(random, detection.analysis->surface().vertex_count(),
+                                                static_cast<int32_t>(detection.places.size()));
+  const auto others = segment_k_means(detection, execution, seeds);
+  errors.random_k_means = mean_iou(named_by_truth(others, true_labels, area), true_labels, area);
+}
+
 double nearest_mean(const std::vector<Vector3>& from, const std::vector<Vector3>& to) {
   double sum = 0;
   for (const Vector3& a : from) {
@@ -138,6 +205,7 @@ Errors judge(const std::shared_ptr<const LandmarkModel>& model, const Path& set,
       }
   errors.weights = weight_difference(found, truth);
   errors.posed = reposing_error(found, truth, mesh->source.positions) / errors.height;
+  judge_parts(detection, found, truth, errors);
   errors.chamfer =
       (nearest_mean(places, truth.place) + nearest_mean(truth.place, places)) / 2 / errors.height;
   return errors;
@@ -153,12 +221,13 @@ double mean(const std::vector<double>& values) {
 
 int main(int count, char** arguments) {
   std::map<std::string, std::string> options{
-      {"--train", ""}, {"--test", ""}, {"--model", ""}, {"--seed", "0"}};
+      {"--train", ""}, {"--test", ""}, {"--model", ""}, {"--set", ""}, {"--seed", "0"}};
   for (int i = 1; i + 1 < count; i += 2) {
     if (!options.contains(arguments[i])) return std::cerr << "unknown option " << arguments[i] << '\n', 2;
     options[arguments[i]] = arguments[i + 1];
   }
-  const auto set = focal_test::evaluation_set("makehuman");
+  std::optional<Path> set =
+      options["--set"].empty() ? focal_test::evaluation_set("makehuman") : Path(options["--set"]);
   if (!set) return 0;
   const auto splits = focal_test::read_json(*set / "set.json");
   auto train_names = words(options["--train"]), test_names = words(options["--test"]);
@@ -185,25 +254,29 @@ int main(int count, char** arguments) {
   }
   std::printf("%zu characters, %zu landmarks, %zu joints, %.0f s\n", train_names.size(),
               model->landmark_names.size(), model->skeleton.size(), watch.lap());
-  std::printf("%-8s %8s %8s %8s %8s %8s %8s %8s\n", "mesh", "joints %", "p95 %", "worst %", "J2J %",
-              "weights", "posed %", "seconds");
-  std::vector<double> joints, weights, posed, chamfer;
+  std::printf("%-14s %8s %8s %8s %8s %8s %8s %8s %8s %8s %8s\n", "mesh", "joints %", "p95 %", "worst %",
+              "J2J %", "weights", "posed %", "parts", "k-means", "random", "seconds");
+  std::vector<double> joints, sums(8, 0);
   std::map<std::string, std::vector<double>> by_joint;
+  const auto print = [](const std::string& name, std::vector<double> errors,
+                        const std::vector<double>& rest) {
+    std::sort(errors.begin(), errors.end());
+    std::printf("%-14s %8.2f %8.2f %8.2f", name.c_str(), 100 * mean(errors),
+                100 * errors[errors.size() * 95 / 100], 100 * errors.back());
+    std::printf(" %8.2f %8.3f %8.2f %8.3f %8.3f %8.3f %8.2f\n", 100 * rest[0], rest[1], 100 * rest[2],
+                rest[3], rest[4], rest[5], rest[6]);
+  };
   for (const auto& name : test_names) {
-    Errors e = judge(model, *set, name);
-    std::sort(e.joints.begin(), e.joints.end());
-    std::printf("%-8s %8.2f %8.2f %8.2f %8.2f %8.3f %8.2f %8.2f\n", name.c_str(), 100 * mean(e.joints),
-                100 * e.joints[e.joints.size() * 95 / 100], 100 * e.joints.back(), 100 * e.chamfer, e.weights,
-                100 * e.posed, e.seconds);
+    const Errors e = judge(model, *set, name);
+    const std::vector<double> rest = {e.chamfer, e.weights,        e.posed,  e.parts,
+                                      e.k_means, e.random_k_means, e.seconds};
+    print(name, e.joints, rest);
+    for (size_t i = 0; i < rest.size(); ++i) sums[i] += rest[i] / static_cast<double>(test_names.size());
     joints.insert(joints.end(), e.joints.begin(), e.joints.end());
-    weights.push_back(e.weights), posed.push_back(e.posed), chamfer.push_back(e.chamfer);
     for (const auto& [joint, values] : e.by_joint)
       by_joint[joint].insert(by_joint[joint].end(), values.begin(), values.end());
   }
-  std::sort(joints.begin(), joints.end());
-  std::printf("%-8s %8.2f %8.2f %8.2f %8.2f %8.3f %8.2f\n", "all", 100 * mean(joints),
-              100 * joints[joints.size() * 95 / 100], 100 * joints.back(), 100 * mean(chamfer), mean(weights),
-              100 * mean(posed));
+  print("all", joints, sums);
   for (const auto& [joint, values] : by_joint)
     std::printf("  %-16s %.2f\n", joint.c_str(), 100 * mean(values));
   return 0;

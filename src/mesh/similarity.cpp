@@ -1,4 +1,4 @@
-#include "skeleton/similarity.h"
+#include "mesh/similarity.h"
 
 #include <Eigen/SVD>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Fitted rotations and similarities are the true ones.
-#include "skeleton/similarity.h"
+#include "mesh/similarity.h"
 
 #include <doctest/doctest.h>
 

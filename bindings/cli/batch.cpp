@@ -1,0 +1,138 @@
+// focal batch: a model put to every mesh of a folder; what is there already is not done again, what fails stops nothing.
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+
+#include "command_error.h"
+#include "files.h"
+#include "marked_mesh.h"
+#include "output.h"
+#include "parameters.h"
+#include "progress.h"
+
+namespace focal_cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options : CommonOptions {
+  std::string model, input, output, shard;
+  bool rig = false;
+  focal_quality quality = FOCAL_QUALITY_BEST;
+};
+
+// "2/3": every third file, from the second on.
+std::pair<size_t, size_t> shard_of(const std::string& text) {
+  if (text.empty()) return {0, 1};
+  unsigned long index = 0, count = 0;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%lu/%lu%c", &index, &count, &rest) != 2 || index < 1 || index > count)
+    throw CommandError("'" + text + "' is no shard", "write 1/3, 2/3 and 3/3 to divide the work among three");
+  return {index - 1, count};
+}
+
+std::vector<fs::path> meshes_in(const std::string& folder, const std::string& shard) {
+  std::error_code error;
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    if (entry.path().extension() == ".glb" || entry.path().extension() == ".gltf")
+      files.push_back(entry.path());
+  if (error) throw CommandError("cannot read the folder " + folder, error.message());
+  if (files.empty()) throw CommandError("no .glb or .gltf in " + folder, "pass a folder with meshes");
+  std::sort(files.begin(), files.end());
+  const auto [index, count] = shard_of(shard);
+  std::vector<fs::path> mine;
+  for (size_t i = index; i < files.size(); i += count) mine.push_back(files[i]);
+  return mine;
+}
+
+// The mesh's own file with landmarks, and with a skeleton if asked for.
+Json process(const Context& context, const focal_model* model, const fs::path& file, const fs::path& target,
+             const Options& options, focal_task* task) {
+  const Mesh mesh = load_mesh(context.get(), file.string());
+  auto params = detect_params_of(options.quality, options);
+  params.keep_votes = 0;
+  const auto detection = owned<Detection>(focal_model_detect, model, mesh.get(), &params, task);
+  if (options.rig) {
+    const auto skeleton = owned<Skeleton>(focal_skeleton_create, detection.get(),
+                                          static_cast<const focal_skeleton_params*>(nullptr),
+                                          static_cast<focal_task*>(nullptr));
+    check(focal_skeleton_write_gltf(skeleton.get(), target.string().c_str()));
+  } else {
+    check(focal_detection_write_gltf(detection.get(), target.string().c_str()));
+  }
+  auto info = initialised(focal_detection_info_init);
+  check(focal_detection_get_info(detection.get(), &info));
+  int found = 0;
+  for (uint32_t i = 0; i < info.landmark_count; ++i) {
+    auto landmark = initialised(focal_landmark_init);
+    check(focal_detection_get_landmark(detection.get(), i, &landmark));
+    found += landmark.status == FOCAL_LANDMARK_FOUND;
+  }
+  return {{"status", "done"},
+          {"found", found},
+          {"landmarks", info.landmark_count},
+          {"category_fit", info.category_fit}};
+}
+
+void batch(const Options& options) {
+  const auto files = meshes_in(options.input, options.shard);
+  std::error_code error;
+  fs::create_directories(options.output, error);
+  if (error) throw CommandError("cannot make the folder " + options.output, error.message());
+  const Context context = make_context(options);
+  Progress progress(options.quiet);
+  const auto model = owned<Model>(focal_model_load, context.get(), options.model.c_str());
+  Json list = Json::array();
+  size_t failed = 0, kept = 0;
+  for (size_t i = 0; i < files.size(); ++i) {
+    const fs::path target = fs::path(options.output) / files[i].filename();
+    focal_task* task = progress.begin(files[i].filename().string(), i, files.size());
+    Json entry = {{"mesh", files[i].string()}, {"output", target.string()}};
+    if (fs::exists(target)) {
+      entry["status"] = "there already", ++kept;
+    } else {
+      try {
+        entry.update(process(context, model.get(), files[i], target, options, task));
+      } catch (const CommandError& problem) {
+        entry["status"] = "failed", entry["error"] = problem.what(), entry["hint"] = problem.hint, ++failed;
+      }
+    }
+    list.push_back(std::move(entry));
+  }
+  progress.clear();
+  if (options.json)
+    print_json(
+        {{"meshes", list}, {"done", files.size() - failed - kept}, {"kept", kept}, {"failed", failed}});
+  if (options.prints_text()) {
+    for (const Json& entry : list)
+      std::cout << entry["mesh"].get<std::string>() << ": " << entry["status"].get<std::string>()
+                << (entry.contains("error") ? ", " + entry["error"].get<std::string>() : "") << "\n";
+    std::cout << files.size() - failed - kept << " done, " << kept << " there already, " << failed
+              << " failed\n";
+  }
+}
+
+}  // namespace
+
+void add_batch(CLI::App& app) {
+  CLI::App* verb =
+      app.add_subcommand("batch", "Put a model to every mesh of a folder; goes on where it stopped");
+  const auto options = std::make_shared<Options>();
+  verb->add_option("MODEL", options->model, "Model file")->type_name("")->required();
+  verb->add_option("FOLDER", options->input, "Folder with .glb and .gltf files")->type_name("")->required();
+  verb->add_option(
+          "-o,--output", options->output,
+          "Folder for the results, each under the name of its mesh; those that exist are not made again")
+      ->type_name("FOLDER")
+      ->required();
+  verb->add_flag("--rig", options->rig,
+                 "Also a skeleton and skin weights: needs a model of rigged characters");
+  verb->add_option("--shard", options->shard, "Only part I of N of the files, to share the work")
+      ->type_name("I/N");
+  add_quality_option(*verb, options->quality);
+  add_common_options(*verb, *options);
+  verb->callback([options] { batch(*options); });
+}
+
+}  // namespace focal_cli
