@@ -3,75 +3,17 @@
 
 #include <doctest/doctest.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 
 #include "base/error.h"
-#include "creatures/character.h"
 #include "landmarks/model_file.h"
-#include "landmarks/train.h"
 #include "skeleton/rig_landmarks.h"
-#include "skeleton/rigged_shapes.h"
+#include "skeleton/small_rig.h"
 
 using namespace focal;
+using namespace focal_test;
 
 namespace {
-
-const Execution execution = [] {
-  Execution two;
-  two.thread_count = 2;
-  return two;
-}();
-
-creatures::Character humanoid(uint64_t seed) {
-  const auto& families = creatures::families();
-  const auto family =
-      std::find_if(families.begin(), families.end(), [](const auto& f) { return f.name == "humanoid"; });
-  return creatures::make_character(*family, "humanoid", seed);
-}
-
-std::shared_ptr<const PreparedMesh> mesh_of(const std::vector<creatures::Vec3>& positions,
-                                            const creatures::Character& from) {
-  TriangleMesh mesh;
-  mesh.positions.resize(static_cast<Eigen::Index>(positions.size()), 3);
-  for (size_t v = 0; v < positions.size(); ++v) mesh.positions.row(v) = positions[v];
-  mesh.triangles.resize(static_cast<Eigen::Index>(from.rest.triangles.size()), 3);
-  for (size_t t = 0; t < from.rest.triangles.size(); ++t)
-    for (int i = 0; i < 3; ++i) mesh.triangles(t, i) = from.rest.triangles[t][i];
-  return std::make_shared<const PreparedMesh>(prepare(std::move(mesh)));
-}
-
-RiggedMesh rigged(const creatures::Character& from) {
-  RiggedMesh result{mesh_of(from.rest.positions, from), {}};
-  for (const auto& joint : from.skeleton.joints) {
-    Joint one{joint.name, joint.parent, Matrix4::Identity()};
-    one.bind.topRightCorner<3, 1>() = joint.rest;
-    result.rig.joints.push_back(one);
-  }
-  for (const auto& skin : from.skin) {
-    std::vector<Influence> influences;
-    for (int k = 0; k < creatures::max_influences; ++k)
-      influences.push_back({skin.joints[k], static_cast<float>(skin.weights[k])});
-    result.rig.influences.push_back(heaviest(influences));
-  }
-  return result;
-}
-
-TrainParams small() {
-  return {.eigenpair_count = 80,
-          .tree_count = 10,
-          .proxy_vertices = 1500,
-          .spoiled_copies = 0,
-          .learns_confidence = false};
-}
-
-std::shared_ptr<const LandmarkModel> model() {
-  static const auto one = [] {
-    const TrainingSet set = training_set_of({rigged(humanoid(1))}, {.shapes = 8, .landmarks = 40});
-    return std::make_shared<const LandmarkModel>(train(set, small(), execution));
-  }();
-  return one;
-}
 
 double height(const TriangleMesh& mesh) {
   return mesh.positions.col(1).maxCoeff() - mesh.positions.col(1).minCoeff();
@@ -106,7 +48,7 @@ TEST_CASE("another humanoid in another pose gets its skeleton and weights") {
   for (const uint64_t seed : {11, 12}) {
     const creatures::Character other = humanoid(seed);
     const auto mesh = mesh_of(other.posed, other);
-    const Detection detection = detect(model(), mesh, {}, execution);
+    const Detection detection = detect(rig_model(), mesh, {}, execution);
     const TransferredRig found = transfer_rig(detection, execution);
     REQUIRE(found.rig.joints.size() == other.skeleton.joints.size());
     double error = 0;
@@ -132,11 +74,11 @@ TEST_CASE("another humanoid in another pose gets its skeleton and weights") {
 }
 
 TEST_CASE("a model with a skeleton goes through its file and rigs the same") {
-  const auto bytes = serialise(*model());
+  const auto bytes = serialise(*rig_model());
   const auto loaded = std::make_shared<const LandmarkModel>(parse_model(bytes));
-  REQUIRE(loaded->skeleton.size() == model()->skeleton.size());
-  CHECK(loaded->skeleton[3].name == model()->skeleton[3].name);
-  CHECK(loaded->skeleton[3].parent == model()->skeleton[3].parent);
+  REQUIRE(loaded->skeleton.size() == rig_model()->skeleton.size());
+  CHECK(loaded->skeleton[3].name == rig_model()->skeleton[3].name);
+  CHECK(loaded->skeleton[3].parent == rig_model()->skeleton[3].parent);
   CHECK(serialise(*loaded) == bytes);
   auto damaged = bytes;
   damaged.resize(damaged.size() - 1);
