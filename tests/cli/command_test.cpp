@@ -193,8 +193,9 @@ TEST_CASE("train: keys, and the model it speaks of") {
                                         "backend"});
   CHECK(eggs().trained["file_bytes"] == std::filesystem::file_size(eggs().model()));
   const json info = focal_json("info " + eggs().model());
-  CHECK(keys_of(info) == Keys{"kind", "file", "file_bytes", "preset", "landmarks", "shapes", "mean_vertices",
-                              "samples", "tree_nodes", "parameters"});
+  CHECK(keys_of(info) == Keys{"kind", "file", "file_bytes", "preset", "landmarks", "joints", "shapes",
+                              "mean_vertices", "samples", "tree_nodes", "parameters"});
+  CHECK(info["joints"].empty());
   CHECK(info["landmarks"] == json({"nose", "horn.L", "horn.R", "tail"}));
   CHECK(info["shapes"] == 4);
   CHECK(info["parameters"]["trees"] == 8);
@@ -218,6 +219,59 @@ TEST_CASE("detect: keys, and places that lie where they say") {
     CHECK(landmark["barycentric"].size() == 3);
     CHECK(landmark["position"].size() == 3);
   }
+}
+
+TEST_CASE("rig, and train on rigs, say what they lack") {
+  const ScratchFolder scratch;
+  check_fails("rig " + eggs().model() + " " + eggs().mesh() + " -o " + (scratch / "a.glb"),
+              "knows no skeleton");
+  check_fails("train --rigs " + eggs().mesh() + " -o " + (scratch / "a.focal"), "has no skin");
+  check_fails("train -o " + (scratch / "a.focal"), "either a SET or --rigs");
+}
+
+TEST_CASE("segment: a label for each triangle, by the landmarks' names") {
+  const ScratchFolder scratch;
+  const std::string out = " -o " + (scratch / "parts.glb");
+  for (const std::string method : {"auto", "k-means"}) {
+    const json report =
+        focal_json("segment " + eggs().model() + " " + eggs().mesh() + out + " --method " + method);
+    CHECK(keys_of(report) == Keys{"mesh", "output", "parts", "labels"});
+    REQUIRE(report["parts"].size() == 4);
+    CHECK(report["parts"][0]["name"] == "nose");
+    size_t triangles = 0;
+    for (const json& part : report["parts"]) triangles += part["triangles"].get<size_t>();
+    CHECK(triangles == report["labels"].size());
+    CHECK(json::parse(focal_cli::read_text_file(scratch / "parts.labels.json")) == report);
+  }
+  CHECK(focal_json("info " + (scratch / "parts.glb"))["kind"] == "mesh");
+  check_fails("segment " + eggs().model() + " " + eggs().mesh() + out + " --method skeleton",
+              "not learned from rigged characters");
+}
+
+TEST_CASE("correspond: landmarks by name, and a point for every vertex") {
+  const ScratchFolder scratch;
+  const json report = focal_json("correspond " + eggs().model() + " " + eggs().mesh() + " " + eggs().mesh() +
+                                 " -o " + (scratch / "map.json") + " --dense");
+  CHECK(keys_of(report) == Keys{"from", "to", "landmarks", "vertices"});
+  CHECK(report["vertices"].size() == 2 + 19 * 26);
+  for (const json& pair : report["landmarks"]) CHECK(pair["from"] == pair["to"]);  // the same mesh twice
+}
+
+TEST_CASE("batch: one bad file stops nothing, what is there is kept, shards share the work") {
+  const ScratchFolder scratch, results;
+  std::filesystem::copy_file(eggs().mesh(), scratch / "a.glb");
+  std::filesystem::copy_file(eggs().mesh(), scratch / "c.glb");
+  focal_cli::write_file_atomically(scratch / "b.glb", "nothing");
+  const std::string line =
+      "batch " + eggs().model() + " " + scratch.path.string() + " -o " + results.path.string();
+  CHECK(focal_json(line + " --shard 1/2")["done"] == 2);  // a and c
+  const json again = focal_json(line);
+  CHECK(keys_of(again) == Keys{"meshes", "done", "kept", "failed"});
+  CHECK(again["kept"] == 2);
+  CHECK(again["failed"] == 1);
+  CHECK(again["meshes"][1]["status"] == "failed");
+  CHECK(focal_json("info " + (results / "c.glb"))["vertices"] == 2 + 19 * 26);
+  check_fails(line + " --shard 3/2", "no shard");
 }
 
 TEST_CASE("detect writes landmark files of every format, a glTF with landmarks and the votes") {

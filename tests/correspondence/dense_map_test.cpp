@@ -15,7 +15,8 @@ struct Pair {
   creatures::Character body = humanoid(21);
   std::shared_ptr<const PreparedMesh> rest = mesh_of(body.rest.positions, body),
                                       posed = mesh_of(body.posed, body);
-  Detection at_rest = detect(rig_model(), rest, {}, execution), in_pose = detect(rig_model(), posed, {}, execution);
+  Detection at_rest = detect(rig_model(), rest, {}, execution),
+            in_pose = detect(rig_model(), posed, {}, execution);
 };
 
 const Pair& pair() {
@@ -27,7 +28,8 @@ const Pair& pair() {
 double mean_error(const DenseMap& map, const PreparedMesh& to) {
   double sum = 0;
   for (size_t v = 0; v < map.point.size(); ++v)
-    sum += (position_of(to.source, map.point[v]) - to.source.positions.row(static_cast<Eigen::Index>(v)).transpose())
+    sum += (position_of(to.source, map.point[v]) -
+            to.source.positions.row(static_cast<Eigen::Index>(v)).transpose())
                .norm();
   return sum / static_cast<double>(map.point.size()) / to.scale;
 }
@@ -64,7 +66,8 @@ TEST_CASE("the same bits for one thread and two") {
                  b = dense_map(pair().at_rest, pair().in_pose, execution);
   bool same = true;
   for (size_t v = 0; v < a.point.size(); ++v)
-    same = same && a.point[v].triangle == b.point[v].triangle && a.point[v].barycentric == b.point[v].barycentric;
+    same = same && a.point[v].triangle == b.point[v].triangle &&
+           a.point[v].barycentric == b.point[v].barycentric;
   CHECK(same);
 }
 

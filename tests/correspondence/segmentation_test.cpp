@@ -20,7 +20,9 @@ TEST_CASE("a triangle has the label of most of its corners") {
   CHECK(triangle_labels(mesh, {1, 2, 3, 3}) == std::vector<int32_t>{1, 3, 3});
 }
 
-TEST_CASE("geodesic parts: almost every triangle belongs to its nearest landmark; k-means names each landmark it starts from") {
+TEST_CASE(
+    "geodesic parts: almost every triangle belongs to its nearest landmark; k-means names each landmark it "
+    "starts from") {
   const creatures::Character body = humanoid(22);
   const auto mesh = mesh_of(body.posed, body);
   const Detection detection = detect(rig_model(), mesh, {}, execution);
@@ -35,7 +37,8 @@ TEST_CASE("geodesic parts: almost every triangle belongs to its nearest landmark
   }
   size_t agree = 0;
   for (size_t t = 0; t < labels.size(); ++t) {
-    const Eigen::VectorXf sum = field.col(mesh->source.triangles(t, 0)) + field.col(mesh->source.triangles(t, 1)) +
+    const Eigen::VectorXf sum = field.col(mesh->source.triangles(t, 0)) +
+                                field.col(mesh->source.triangles(t, 1)) +
                                 field.col(mesh->source.triangles(t, 2));
     Eigen::Index nearest = 0;
     sum.minCoeff(&nearest);

@@ -28,7 +28,7 @@ inline creatures::Character humanoid(uint64_t seed) {
 }
 
 inline std::shared_ptr<const focal::PreparedMesh> mesh_of(const std::vector<creatures::Vec3>& positions,
-                                            const creatures::Character& from) {
+                                                          const creatures::Character& from) {
   TriangleMesh mesh;
   mesh.positions.resize(static_cast<Eigen::Index>(positions.size()), 3);
   for (size_t v = 0; v < positions.size(); ++v) mesh.positions.row(v) = positions[v];
