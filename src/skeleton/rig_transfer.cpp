@@ -17,7 +17,7 @@ namespace {
 constexpr double alike_falloff = 30;    // a shape counts exp(-falloff (residual - least residual))
 constexpr double place_outlier = 0.02;  // of sqrt(area): places farther from the consensus count less
 constexpr double ring_softness = 0.05;  // share of a joint's part that counts beside its ring
-constexpr int nearest_points = 4;       // of a training shape that give a vertex its weights
+constexpr int smoothing_rounds = 1;     // of the weights; each more costs 0.01 of their L1 error
 constexpr float least_weight = 0.02f;   // lighter influences are dropped
 
 // What one training shape says of the new character, in the coordinates of the full surface.
@@ -105,8 +105,8 @@ std::pair<Vector3, double> consensus(const std::vector<std::pair<Vector3, double
   return {middle, spread};
 }
 
-// Turns each joint's frame as little as needed for its only child, or its tip, to lie where the frame of the training
-// shapes has it: then rotations of one skeleton's animation mean the same on the other.
+// Where the shapes agree that the joints lie. Their axes are those of the training characters, turned as their parts of the surface
+// are, so that rotations of an animation mean the same here.
 struct Joints {
   std::vector<Vector3> place, tip;
   std::vector<Matrix3> turn;
@@ -142,43 +142,40 @@ Joints agreed_joints(const std::vector<SkeletonJoint>& skeleton, const std::vect
   return result;
 }
 
-// vertices of the analysed surface x joints: the mean over the shapes of the weights at the nearest points of each.
+// vertices of the analysed surface x joints: the mean over the shapes of the weights at the nearest point of each.
 RowMatrixf mapped_weights(const LandmarkModel& model, const SurfaceAnalysis& analysis,
                           const std::vector<ShapeMap>& maps, const std::vector<double>& shape_weight,
                           const Execution& execution) {
-  const Eigen::Index n = analysis.surface().vertex_count();
-  std::vector<RowMatrixf> parts(maps.size());
+  std::vector<std::vector<int32_t>> nearest(maps.size());
   parallel_for(execution, static_cast<int64_t>(maps.size()), [&](int64_t m) {
     const AtlasShape& shape = model.atlas[maps[m].shape];
     const Eigen::MatrixXf& C = maps[m].map.C;
-    const Eigen::Index points = shape.positions.rows(), k = C.rows();
-    const RowMatrixf there = shape.samples.Phi.topLeftCorner(points, k);
-    const RowMatrixf here = analysis.eigenfunctions.leftCols(C.cols()) * C.transpose();
-    const Eigen::VectorXf size = there.rowwise().squaredNorm();
-    RowMatrixf& sum = parts[m] = RowMatrixf::Zero(n, static_cast<Eigen::Index>(model.skeleton.size()));
-    for (Eigen::Index v = 0; v < n; ++v) {
-      const Eigen::VectorXf away = size - 2 * there * here.row(v).transpose();
-      std::array<std::pair<float, Eigen::Index>, nearest_points> best;
-      best.fill({std::numeric_limits<float>::infinity(), 0});
-      for (Eigen::Index i = 0; i < points; ++i) {
-        if (away[i] >= best.back().first) continue;
-        best.back() = {away[i], i};
-        for (size_t b = best.size() - 1; b > 0 && best[b].first < best[b - 1].first; --b)
-          std::swap(best[b], best[b - 1]);
-      }
-      const float square = here.row(v).squaredNorm();
-      float total = 0;
-      std::array<float, nearest_points> share{};
-      for (size_t b = 0; b < best.size(); ++b)
-        total += share[b] = 1 / (best[b].first + square + 0.02f * size[best[b].second] + 1e-12f);
-      for (size_t b = 0; b < best.size(); ++b)
-        for (const Influence& one : shape.rig->influences[best[b].second])
-          sum(v, one.joint) += static_cast<float>(shape_weight[m]) * one.weight * share[b] / total;
-    }
+    nearest[m] = nearest_rows(analysis.eigenfunctions.leftCols(C.cols()) * C.transpose(),
+                              shape.samples.Phi.topLeftCorner(shape.positions.rows(), C.rows()));
   });
-  RowMatrixf result = parts[0];
-  for (size_t m = 1; m < parts.size(); ++m) result += parts[m];
-  return result;
+  RowMatrixf sum =
+      RowMatrixf::Zero(analysis.surface().vertex_count(), static_cast<Eigen::Index>(model.skeleton.size()));
+  for (size_t m = 0; m < maps.size(); ++m)
+    for (Eigen::Index v = 0; v < sum.rows(); ++v)
+      for (const Influence& one : model.atlas[maps[m].shape].rig->influences[nearest[m][v]])
+        sum(v, one.joint) += static_cast<float>(shape_weight[m]) * one.weight;
+  return sum;
+}
+
+// Neighbours share their weights, so that no single vertex is torn out of its surroundings.
+RowMatrixf smoothed(RowMatrixf weights, const SparseMatrix& L) {
+  for (int round = 0; round < smoothing_rounds; ++round) {
+    RowMatrixf next = weights;
+    for (Eigen::Index v = 0; v < weights.rows(); ++v) {
+      Eigen::RowVectorXf sum = weights.row(v);
+      float count = 1;
+      for (SparseMatrix::InnerIterator it(L, v); it; ++it)
+        if (it.row() != v) sum += weights.row(it.row()), ++count;
+      next.row(v) = sum / count;
+    }
+    weights = std::move(next);
+  }
+  return weights;
 }
 
 VertexInfluences influences_of(const Eigen::Ref<const Eigen::RowVectorXf>& weights) {
@@ -227,7 +224,8 @@ TransferredRig transfer_rig(const Detection& detection, const Execution& executi
   }
   result.confidence = joints.confidence;
   execution.begin_stage("weights", 0.8, 1);
-  const RowMatrixf weights = mapped_weights(model, analysis, maps, weight, execution);
+  const RowMatrixf weights =
+      smoothed(mapped_weights(model, analysis, maps, weight, execution), analysis.operators.L);
   const auto places = coarse_place_of_vertices(analysis.proxy);
   std::vector<VertexInfluences> on_surface;
   for (const SurfacePoint& place : places) {
