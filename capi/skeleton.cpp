@@ -8,8 +8,11 @@
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "boundary.h"
+#include "gltf/animation.h"
+#include "gltf/skin.h"
 #include "gltf/writer.h"
 #include "skeleton/bone_names.h"
+#include "skeleton/retarget.h"
 #include "structs.h"
 #include "surface_points.h"
 #include "task.h"
@@ -22,7 +25,7 @@ struct StructTraits<focal_skeleton_params> {
   static constexpr size_t first_size = sizeof(focal_skeleton_params);
   static focal_skeleton_params defaults() { return {}; }
 };
-static_assert(sizeof(void*) != 8 || (sizeof(focal_skeleton_params) == 24 &&
+static_assert(sizeof(void*) != 8 || (sizeof(focal_skeleton_params) == 32 &&
                                      offsetof(focal_skeleton_params, joint_name_count) == 16));
 
 template <>
@@ -59,6 +62,23 @@ void rename_joints(const focal_skeleton_params& params, TransferredRig& rig) {
     rig.warnings.push_back("bone '" + name + "' has no name in this convention and keeps its own");
   for (size_t j = 0; j < joints.size(); ++j)
     joints[j].name = params.joint_names && params.joint_names[j] ? params.joint_names[j] : names[j];
+}
+
+std::vector<JointAnimation> animations_for(const TransferredRig& rig, const PreparedMesh& target,
+                                           const MeshObject& character) {
+  if (character.file.empty())
+    throw Error(Status::invalid_argument, "the character has no glTF file to take animations from",
+                "load it with focal_mesh_load_gltf and focal_mesh_params.keep_source_file 1");
+  const auto source = read_gltf_rig(character.file, character.primitives, character.limits, character.folder);
+  if (!source)
+    throw Error(Status::invalid_argument, "the character that animations are to come from has no skin",
+                "pass a rigged and animated character");
+  std::vector<JointAnimation> result;
+  for (GltfAnimation& one : read_gltf_animations(character.file, character.limits, character.folder))
+    result.push_back(
+        {one.name, one.times,
+         retarget(source->joints, one.joints, rig.rig.joints, target.scale / character.mesh->scale)});
+  return result;
 }
 
 focal_joint to_abi(const TransferredRig& rig, size_t index) {
@@ -105,6 +125,11 @@ focal_status focal_skeleton_create(const focal_detection* detection, const focal
     const Execution execution = object->detection->model->context->execution_with(lease.task());
     execution.check_cancelled();
     object->rig = transfer_rig(object->detection->detection, execution);
+    if (how.animations) {
+      const auto character = resolve<MeshObject>(how.animations);
+      object->animations = animations_for(object->rig, *object->detection->mesh->mesh, *character);
+      if (object->animations.empty()) object->rig.warnings.push_back("the character has no animations");
+    }
     rename_joints(how, object->rig);
     object->detection->model->context->report_warnings(object->rig.warnings);
     *out_skeleton = publish(object);
@@ -181,8 +206,8 @@ focal_status focal_skeleton_write_gltf(const focal_skeleton* skeleton, const cha
     const auto object = resolve<SkeletonObject>(skeleton);
     const auto file = path_of(path);
     SourceFile source = source_file(*object->detection->mesh, file);
-    source.bytes =
-        add_skin(source.bytes, source.primitives, {&object->rig.rig, object->rig.tip}, source.limits);
+    source.bytes = add_skin(source.bytes, source.primitives,
+                            {&object->rig.rig, object->rig.tip, object->animations}, source.limits);
     write_file_atomically(file, with_landmarks(*object->detection, source));
   });
 }

@@ -16,6 +16,7 @@ struct SkeletonObject {
 
   std::shared_ptr<const DetectionObject> detection;
   TransferredRig rig;
+  std::vector<JointAnimation> animations;
 };
 
 }  // namespace focal

@@ -17,7 +17,7 @@ namespace focal_cli {
 namespace {
 
 struct Options : CommonOptions {
-  std::string model, mesh, output, names;
+  std::string model, mesh, output, names, animations;
   focal_quality quality = FOCAL_QUALITY_BEST;
 };
 
@@ -43,8 +43,9 @@ std::vector<std::string> names_from_file(const std::string& path, const std::vec
 }
 
 Skeleton skeleton_of(const Options& options, const focal_model* model, const focal_detection* detection,
-                     focal_task* task) {
+                     const focal_mesh* animations, focal_task* task) {
   auto params = initialised(focal_skeleton_params_init);
+  params.animations = animations;
   std::vector<std::string> names;
   std::vector<const char*> pointers;
   const auto convention = conventions.find(options.names);
@@ -121,8 +122,9 @@ void rig(const Options& options) {
   params.keep_votes = 0;
   const auto detection = owned<Detection>(focal_model_detect, model.get(), mesh.get(), &params,
                                           progress.begin("detecting", 0, 2));
+  const Mesh animations = options.animations.empty() ? nullptr : load_mesh(context.get(), options.animations);
   const Skeleton skeleton =
-      skeleton_of(options, model.get(), detection.get(), progress.begin("rigging", 1, 2));
+      skeleton_of(options, model.get(), detection.get(), animations.get(), progress.begin("rigging", 1, 2));
   check(focal_skeleton_write_gltf(skeleton.get(), options.output.c_str()));
   progress.clear();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -152,6 +154,9 @@ void add_rig(CLI::App& app) {
                    "model's joint "
                    "names and yours; without it as on the characters")
       ->type_name("NAMES");
+  verb->add_option("--animations", options->animations,
+                   "Rigged character whose animations go into the file too, retargeted")
+      ->type_name("CHARACTER.glb");
   add_quality_option(*verb, options->quality);
   add_common_options(*verb, *options);
   verb->callback([options] { rig(*options); });

@@ -557,6 +557,9 @@ typedef struct focal_skeleton_params {
    * as above. joint_name_count: the model's joint_count, or 0. */
   const char* const* joint_names;
   uint64_t joint_name_count;
+  /* A rigged character, loaded with focal_mesh_load_gltf, whose animations focal_skeleton_write_gltf puts in; NULL: none. Its
+   * joints should be named as those of the characters that taught the model. */
+  const focal_mesh* animations;
 } focal_skeleton_params;
 
 FOCAL_API focal_status focal_skeleton_params_init(focal_skeleton_params* params, size_t struct_size);

@@ -22,26 +22,26 @@ Eigen::Matrix<double, kSize, 1> numbers(const json& node, const char* key,
   return result;
 }
 
-Matrix4 local_transform(const json& node) {
-  if (member(node, "matrix")) {
-    const Matrix4 identity = Matrix4::Identity();
-    return numbers<16>(node, "matrix", identity.reshaped()).reshaped(4, 4);
-  }
-  const Vector3 translation = numbers<3>(node, "translation", Vector3::Zero());
-  const Vector3 scale = numbers<3>(node, "scale", Vector3::Ones());
-  Eigen::Quaterniond rotation(numbers<4>(node, "rotation", Eigen::Vector4d::UnitW()));  // x, y, z, w
-  rotation.normalize();
+Matrix4 matrix_of(const NodePose& pose) {
+  Eigen::Quaterniond rotation = pose.rotation.normalized();
   if (!rotation.coeffs().allFinite()) rotation = Eigen::Quaterniond::Identity();
   Matrix4 transform = Matrix4::Identity();
-  transform.topLeftCorner<3, 3>() = rotation.toRotationMatrix() * scale.asDiagonal();
-  transform.topRightCorner<3, 1>() = translation;
+  transform.topLeftCorner<3, 3>() = rotation.toRotationMatrix() * pose.scale.asDiagonal();
+  transform.topRightCorner<3, 1>() = pose.translation;
   return transform;
+}
+
+Matrix4 local_transform(const json& node) {
+  if (!member(node, "matrix")) return matrix_of(pose_of(node));
+  const Matrix4 identity = Matrix4::Identity();
+  return numbers<16>(node, "matrix", identity.reshaped()).reshaped(4, 4);
 }
 
 // The node forest, with everything that depends on ancestors computed once: 10^6 nodes may form one chain.
 class Nodes {
  public:
-  explicit Nodes(const json& root);
+  // poses: of nodes that are shown otherwise than the file has them.
+  explicit Nodes(const json& root, const std::map<int32_t, NodePose>& poses = {});
 
   const json& operator[](int32_t node) const { return nodes_[static_cast<size_t>(node)]; }
   const Matrix4& world_transform(int32_t node) const { return world_[static_cast<size_t>(node)]; }
@@ -59,18 +59,22 @@ class Nodes {
   std::vector<Matrix4> world_;
 };
 
-Nodes::Nodes(const json& root)
+Nodes::Nodes(const json& root, const std::map<int32_t, NodePose>& poses)
     : nodes_(list(root, "nodes")), depth_(nodes_.size(), 0), world_(nodes_.size()) {
   std::vector<bool> is_child(nodes_.size());
   for (const json& node : nodes_)
     for (const json& child : list(node, "children")) is_child[child.get<size_t>()] = true;
   for (size_t node = 0; node < is_child.size(); ++node)
     if (!is_child[node]) roots_.push_back(static_cast<int32_t>(node));
-  for (const int32_t node : roots_) world_[static_cast<size_t>(node)] = local_transform((*this)[node]);
+  const auto local = [&](int32_t node) {
+    const auto posed = poses.find(node);
+    return posed == poses.end() ? local_transform((*this)[node]) : matrix_of(posed->second);
+  };
+  for (const int32_t node : roots_) world_[static_cast<size_t>(node)] = local(node);
   for (const int32_t node : depth_first(roots_))
     for (const json& entry : list((*this)[node], "children")) {
       const auto child = entry.get<size_t>();
-      world_[child] = world_transform(node) * local_transform(nodes_[child]);
+      world_[child] = world_transform(node) * local(static_cast<int32_t>(child));
       depth_[child] = depth(node) + 1;
     }
 }
@@ -153,6 +157,20 @@ std::vector<int32_t> shown_nodes(const json& root, const Nodes& nodes, std::vect
 }
 
 }  // namespace
+
+NodePose pose_of(const json& node) {
+  return {numbers<3>(node, "translation", Vector3::Zero()),
+          Eigen::Quaterniond(numbers<4>(node, "rotation", Eigen::Vector4d::UnitW())),  // x, y, z, w
+          numbers<3>(node, "scale", Vector3::Ones())};
+}
+
+std::vector<Matrix4> world_transforms(const json& root, const std::map<int32_t, NodePose>& poses) {
+  const Nodes nodes(root, poses);
+  std::vector<Matrix4> result;
+  for (size_t node = 0; node < list(root, "nodes").size(); ++node)
+    result.push_back(nodes.world_transform(static_cast<int32_t>(node)));
+  return result;
+}
 
 std::vector<MeshPlacement> placed_meshes(const json& root, GltfBuffers& buffers,
                                          std::vector<std::string>& warnings) {

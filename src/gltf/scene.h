@@ -1,6 +1,7 @@
 // Which meshes the file shows, and where.
 #pragma once
 #include <cstdint>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -15,6 +16,19 @@ struct MeshPlacement {
   int32_t node = -1;  // -1: no node shows it
   Matrix4 world_transform = Matrix4::Identity();
 };
+
+// Where a node stands to its parent, as an animation gives it.
+struct NodePose {
+  Vector3 translation = Vector3::Zero();
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+  Vector3 scale = Vector3::Ones();
+};
+
+NodePose pose_of(
+    const nlohmann::json& node);  // of its translation, rotation and scale; a matrix is not looked at
+
+// Of every node, with some of them in other poses than the file has.
+std::vector<Matrix4> world_transforms(const nlohmann::json& root, const std::map<int32_t, NodePose>& poses);
 
 // Each mesh once, in depth-first node order; see read_gltf for the choice of the scene and for skins.
 // `root` has passed parse_gltf.

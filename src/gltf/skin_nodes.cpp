@@ -50,6 +50,7 @@ class SkinInserter {
   void add_joint_nodes();
   size_t skin_for(const Matrix4& world_transform);
   void add_weights(const GltfPrimitive& primitive);
+  void add_animation(const JointAnimation& animation);
   void attach(const GltfPrimitive& primitive, size_t skin);
   void spare_other_instances(int32_t mesh, int32_t node);
   void retire_former_skins(size_t count);
@@ -182,6 +183,43 @@ void SkinInserter::add_weights(const GltfPrimitive& primitive) {
   attributes["JOINTS_0"] = joints, attributes["WEIGHTS_0"] = shares;
 }
 
+void SkinInserter::add_animation(const JointAnimation& animation) {
+  const size_t count = animation.times.size();
+  if (count == 0) return;
+  const std::vector<float> times(animation.times.begin(), animation.times.end());
+  const size_t input =
+      add_accessor(times, count,
+                   R"("componentType":5126,"type":"SCALAR","min":[)" + json_number(times.front()) +
+                       R"(],"max":[)" + json_number(times.back()) + "]",
+                   false);
+  std::string samplers, channels;
+  size_t sampler = 0;
+  const auto add_channel = [&](size_t joint, const char* path, const std::vector<float>& values,
+                               const char* type) {
+    const size_t output =
+        add_accessor(values, count, std::string(R"("componentType":5126,"type":")") + type + R"(")", false);
+    const std::string comma = sampler ? "," : "";
+    samplers +=
+        comma + R"({"input":)" + std::to_string(input) + R"(,"output":)" + std::to_string(output) + "}";
+    channels += comma + R"({"sampler":)" + std::to_string(sampler++) + R"(,"target":{"node":)" +
+                std::to_string(joint_node_[joint]) + R"(,"path":")" + path + R"("}})";
+  };
+  for (size_t j = 0; j < animation.joints.size(); ++j) {
+    std::vector<float> values;
+    for (const Eigen::Quaterniond& q : animation.joints[j].rotation)
+      for (int i = 0; i < 4; ++i) values.push_back(static_cast<float>(q.normalized().coeffs()[i]));
+    if (!values.empty()) add_channel(j, "rotation", values, "VEC4");
+    values.clear();
+    for (const Vector3& p : animation.joints[j].translation)
+      for (int i = 0; i < 3; ++i) values.push_back(static_cast<float>(p[i]));
+    if (!values.empty()) add_channel(j, "translation", values, "VEC3");
+  }
+  if (sampler > 0)
+    append_element(root_, "animations",
+                   R"({"name":)" + json_string(animation.name) + R"(,"samplers":[)" + samplers +
+                       R"(],"channels":[)" + channels + "]}");
+}
+
 // Other nodes that show the mesh keep it as it was.
 void SkinInserter::spare_other_instances(int32_t mesh, int32_t node) {
   std::optional<size_t> copy;
@@ -241,6 +279,7 @@ void SkinInserter::add() {
   for (const GltfPrimitive& primitive : primitives_) add_weights(primitive);
   for (const auto& [mesh, primitive] : meshes) attach(*primitive, skin_for(primitive->world_transform));
   retire_former_skins(former_skins);
+  for (const JointAnimation& animation : rig_.animations) add_animation(animation);
   end_data();
 }
 

@@ -41,6 +41,7 @@ struct GltfRig {
       nullptr;  // on the merged mesh of read_gltf: bind matrices rigid, one entry of influences a vertex
   std::vector<Vector3>
       tips;  // per joint where its part ends, world coordinates; a leaf joint gets a node there. Or none
+  std::vector<JointAnimation> animations = {};  // added to those of the file
 };
 
 // The source file (the same kind comes back) with a skeleton and skin weights for every mesh that it shows: a scene root

@@ -28,6 +28,18 @@ struct Rig {
   std::vector<VertexInfluences> influences;  // one a vertex
 };
 
+// How a joint stands to its parent over time.
+struct JointKeys {
+  std::vector<Eigen::Quaterniond> rotation;  // one a time; empty: it stays as it is
+  std::vector<Vector3> translation;          // likewise
+};
+
+struct JointAnimation {
+  std::string name;
+  std::vector<double> times;      // seconds, ascending
+  std::vector<JointKeys> joints;  // one a joint
+};
+
 // The heaviest of any number of influences, scaled to sum 1; of one joint they are added up.
 VertexInfluences heaviest(std::span<const Influence> influences);
 

@@ -1,0 +1,30 @@
+// What the animations of a file do to its joints.
+#pragma once
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/matrix.h"
+#include "gltf/limits.h"
+
+namespace focal {
+
+struct GltfAnimation {
+  std::string name;
+  std::vector<double> times;                           // seconds, ascending
+  std::map<std::string, std::vector<Matrix4>> joints;  // by name: to world coordinates, one a time
+};
+
+// Sampled at the times of all keys of an animation together, at most `most_keys` of them (evenly chosen). Only joints of skins;
+// of two with one name the first. Morph weights and what is animated through extensions are left out. Throws what read_gltf
+// throws.
+std::vector<GltfAnimation> read_gltf_animations(std::span<const std::byte> bytes,
+                                                const GltfLimits& limits = {},
+                                                std::optional<std::filesystem::path> folder = std::nullopt,
+                                                int32_t most_keys = 2000);
+
+}  // namespace focal

@@ -1,0 +1,110 @@
+// Animations are sampled as the standard says, and those put into a file are read back the same.
+#include "gltf/animation.h"
+
+#include <doctest/doctest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+
+#include "base/atomic_file.h"
+#include "base/error.h"
+#include "evaluation_data.h"
+#include "gltf/gltf_builder.h"
+#include "gltf/writer.h"
+
+using namespace focal;
+using namespace focal_test;
+
+namespace {
+
+// A joint that turns by a right angle about z within two seconds, below a parent one metre up.
+GltfBuilder turning(const std::string& interpolation, std::vector<float> times = {0, 2}) {
+  GltfBuilder file = tetrahedron();
+  const int parent = file.add_node({{"name", "up"}, {"translation", {0, 1, 0}}});
+  const int joint = file.add_node({{"name", "arm"}}, parent);
+  file.root["skins"] = json::array({{{"joints", {parent, joint}}}});
+  file.root["nodes"][0]["skin"] = 0;
+  const int input = file.add_accessor(times, "SCALAR");
+  const float half = std::numbers::sqrt2_v<float> / 2;
+  const int output = file.add_accessor(std::vector<float>{0, 0, 0, 1, 0, 0, half, half}, "SCALAR");
+  file.root["accessors"][static_cast<size_t>(output)]["type"] = "VEC4";
+  file.root["accessors"][static_cast<size_t>(output)]["count"] = 2;
+  const int move = file.add_accessor(std::vector<float>{0, 0, 0, 4, 0, 0}, "VEC3");
+  const int more = file.add_accessor(std::vector<float>{0, 1}, "SCALAR");
+  file.root["animations"] =
+      json::array({{{"name", "wave"},
+                    {"samplers",
+                     {{{"input", input}, {"output", output}, {"interpolation", interpolation}},
+                      {{"input", more}, {"output", move}}}},
+                    {"channels",
+                     {{{"sampler", 0}, {"target", {{"node", joint}, {"path", "rotation"}}}},
+                      {{"sampler", 1}, {"target", {{"node", joint}, {"path", "translation"}}}}}}}});
+  return file;
+}
+
+double angle_of(const Matrix4& m) { return std::atan2(m(1, 0), m(0, 0)); }
+
+}  // namespace
+
+TEST_CASE("keys of all channels, between them linear or a step, after the last its value") {
+  const auto linear = read_gltf_animations(turning("LINEAR").glb());
+  REQUIRE(linear.size() == 1);
+  CHECK(linear[0].name == "wave");
+  CHECK(linear[0].times == std::vector<double>{0, 1, 2});
+  const auto& arm = linear[0].joints.at("arm");
+  CHECK(angle_of(arm[1]) == doctest::Approx(std::numbers::pi / 4).epsilon(1e-5));
+  CHECK((arm[1].topRightCorner<3, 1>() - Vector3(4, 1, 0)).norm() < 1e-6);
+  CHECK((arm[2].topRightCorner<3, 1>() - Vector3(4, 1, 0)).norm() < 1e-6);
+  CHECK((linear[0].joints.at("up")[2].topRightCorner<3, 1>() - Vector3(0, 1, 0)).norm() < 1e-6);
+  const auto step = read_gltf_animations(turning("STEP").glb());
+  CHECK(angle_of(step[0].joints.at("arm")[1]) == doctest::Approx(0));
+  CHECK(read_gltf_animations(tetrahedron().glb()).empty());
+  CHECK(read_gltf_animations(turning("LINEAR").glb(), {}, {}, 2)[0].times.size() == 2);
+}
+
+TEST_CASE("keys that do not fit are refused") {
+  CHECK_THROWS_AS(read_gltf_animations(turning("LINEAR", {0, 0}).glb()), Error);
+  CHECK_THROWS_AS(read_gltf_animations(turning("LINEAR", {0}).glb()), Error);
+  GltfBuilder file = turning("LINEAR");
+  file.root["animations"][0]["samplers"][0]["output"] = 99;
+  CHECK_THROWS_AS(read_gltf_animations(file.glb()), Error);
+  file = turning("LINEAR");
+  file.root["animations"][0]["channels"][0]["target"]["node"] = 99;
+  CHECK_THROWS_AS(read_gltf_animations(file.glb()), Error);
+  file = turning("LINEAR");
+  file.root["animations"][0]["channels"][0]["sampler"] = -1;
+  CHECK_THROWS_AS(read_gltf_animations(file.glb()), Error);
+}
+
+TEST_CASE("an animation put in with a skin is read back the same") {
+  const auto source = tetrahedron().glb();
+  Rig rig;
+  rig.joints = {{"root", -1, Matrix4::Identity()}, {"arm", 0, Matrix4::Identity()}};
+  rig.joints[1].bind(0, 3) = 1;
+  for (int v = 0; v < 4; ++v) rig.influences.push_back({{{1, 1}}});
+  JointAnimation wave{"wave", {0, 0.5}, {{}, {}}};
+  wave.joints[1].rotation = {Eigen::Quaterniond::Identity(),
+                             Eigen::Quaterniond(Eigen::AngleAxisd(1.0, Vector3::UnitZ()))};
+  wave.joints[0].translation = {Vector3::Zero(), Vector3(0, 0, 3)};
+  const auto written = add_skin(source, read_gltf_memory(source).primitives, {&rig, {}, {wave}});
+  const auto read = read_gltf_animations(written);
+  REQUIRE(read.size() == 1);
+  CHECK(read[0].times == wave.times);
+  CHECK(angle_of(read[0].joints.at("arm")[1]) == doctest::Approx(1.0).epsilon(1e-5));
+  CHECK((read[0].joints.at("arm")[1].topRightCorner<3, 1>() - Vector3(1, 0, 3)).norm() < 1e-5);
+}
+
+TEST_CASE("animations of real characters are read, every joint at every time") {
+  const auto folder = evaluation_set("rigs");
+  if (!folder) return;
+  for (const char* name : {"fox.glb", "cesium_man.glb", "kaykit_knight.glb"}) {
+    const auto animations = read_gltf_animations(read_file(*folder / name), {}, {}, 20);
+    CHECK_FALSE(animations.empty());
+    for (const auto& animation : animations)
+      for (const auto& [joint, track] : animation.joints) {
+        CHECK(track.size() == animation.times.size());
+        for (const Matrix4& m : track) CHECK(m.allFinite());
+      }
+  }
+}
