@@ -142,6 +142,19 @@ Joints agreed_joints(const std::vector<SkeletonJoint>& skeleton, const std::vect
   return result;
 }
 
+// A joint whose own landmarks are all absent lies where the rest of the body suggests it.
+void warn_of_absent(const Detection& detection, std::vector<std::string>& warnings) {
+  for (const SkeletonJoint& joint : detection.model->skeleton) {
+    int32_t own = 0, absent = 0;
+    for (size_t l = 0; l < detection.places.size(); ++l)
+      if (detection.model->landmark_names[l].starts_with(joint.name + " "))
+        ++own, absent += detection.places[l].triangle < 0;
+    if (own > 0 && absent == own)
+      warnings.push_back("joint '" + joint.name +
+                         "': none of its landmarks was found on this mesh, its place is a guess");
+  }
+}
+
 // vertices of the analysed surface x joints: the mean over the shapes of the weights at the nearest point of each.
 RowMatrixf mapped_weights(const LandmarkModel& model, const SurfaceAnalysis& analysis,
                           const std::vector<ShapeMap>& maps, const std::vector<double>& shape_weight,
@@ -214,6 +227,7 @@ TransferredRig transfer_rig(const Detection& detection, const Execution& executi
   });
   TransferredRig result;
   const Joints joints = agreed_joints(model.skeleton, opinions, result.warnings);
+  warn_of_absent(detection, result.warnings);
   const auto to_caller = [&](const Vector3& p) -> Vector3 { return full.centre + full.scale * p; };
   for (size_t j = 0; j < model.skeleton.size(); ++j) {
     Joint joint{model.skeleton[j].name, model.skeleton[j].parent};

@@ -73,6 +73,21 @@ TEST_CASE("another humanoid in another pose gets its skeleton and weights") {
   }
 }
 
+TEST_CASE("a joint without any landmark of its own is told of; too few landmarks are refused") {
+  const creatures::Character other = humanoid(11);
+  Detection detection = detect(rig_model(), mesh_of(other.posed, other), {}, execution);
+  CHECK(transfer_rig(detection, execution).warnings.empty());
+  for (size_t l = 0; l < detection.places.size(); ++l)
+    if (rig_model()->landmark_names[l].starts_with("leftHand ")) detection.places[l].triangle = -1;
+  const auto warnings = transfer_rig(detection, execution).warnings;
+  REQUIRE(warnings.size() == 1);
+  CHECK(warnings[0].find("'leftHand'") != std::string::npos);
+  for (SurfacePoint& place : detection.places) place.triangle = -1;
+  CHECK_THROWS_AS(transfer_rig(detection, execution), Error);
+  detection.analysis = nullptr;
+  CHECK_THROWS_AS(transfer_rig(detection, execution), Error);
+}
+
 TEST_CASE("a model with a skeleton goes through its file and rigs the same") {
   const auto bytes = serialise(*rig_model());
   const auto loaded = std::make_shared<const LandmarkModel>(parse_model(bytes));
