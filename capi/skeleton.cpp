@@ -25,7 +25,7 @@ struct StructTraits<focal_skeleton_params> {
   static constexpr size_t first_size = sizeof(focal_skeleton_params);
   static focal_skeleton_params defaults() { return {}; }
 };
-static_assert(sizeof(void*) != 8 || (sizeof(focal_skeleton_params) == 32 &&
+static_assert(sizeof(void*) != 8 || (sizeof(focal_skeleton_params) == 40 &&
                                      offsetof(focal_skeleton_params, joint_name_count) == 16));
 
 template <>
@@ -49,6 +49,8 @@ namespace {
 void rename_joints(const focal_skeleton_params& params, TransferredRig& rig) {
   check_range("focal_skeleton_params.names", params.names, FOCAL_BONE_NAMES_AS_TRAINED,
               FOCAL_BONE_NAMES_UNITY);
+  check_flag("focal_skeleton_params.rest_pose", params.rest_pose);
+  check_reserved("focal_skeleton_params", params.reserved);
   auto& joints = rig.rig.joints;
   if (params.joint_names ? params.joint_name_count != joints.size() : params.joint_name_count != 0)
     throw Error(Status::invalid_argument,
@@ -130,6 +132,7 @@ focal_status focal_skeleton_create(const focal_detection* detection, const focal
       object->animations = animations_for(object->rig, *object->detection->mesh->mesh, *character);
       if (object->animations.empty()) object->rig.warnings.push_back("the character has no animations");
     }
+    object->in_rest_pose = how.rest_pose != 0;
     rename_joints(how, object->rig);
     object->detection->model->context->report_warnings(object->rig.warnings);
     *out_skeleton = publish(object);
@@ -206,8 +209,9 @@ focal_status focal_skeleton_write_gltf(const focal_skeleton* skeleton, const cha
     const auto object = resolve<SkeletonObject>(skeleton);
     const auto file = path_of(path);
     SourceFile source = source_file(*object->detection->mesh, file);
-    source.bytes = add_skin(source.bytes, source.primitives,
-                            {&object->rig.rig, object->rig.tip, object->animations}, source.limits);
+    GltfRig rig{&object->rig.rig, object->rig.tip, {}, object->animations};
+    if (object->in_rest_pose) rig.pose = object->rig.rest;
+    source.bytes = add_skin(source.bytes, source.primitives, rig, source.limits);
     write_file_atomically(file, with_landmarks(*object->detection, source));
   });
 }

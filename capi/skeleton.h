@@ -17,6 +17,7 @@ struct SkeletonObject {
   std::shared_ptr<const DetectionObject> detection;
   TransferredRig rig;
   std::vector<JointAnimation> animations;
+  bool in_rest_pose = false;  // as the file shows it
 };
 
 }  // namespace focal

@@ -18,6 +18,7 @@ namespace {
 
 struct Options : CommonOptions {
   std::string model, mesh, output, names, animations;
+  bool rest_pose = false;
   focal_quality quality = FOCAL_QUALITY_BEST;
 };
 
@@ -46,6 +47,7 @@ Skeleton skeleton_of(const Options& options, const focal_model* model, const foc
                      const focal_mesh* animations, focal_task* task) {
   auto params = initialised(focal_skeleton_params_init);
   params.animations = animations;
+  params.rest_pose = options.rest_pose;
   std::vector<std::string> names;
   std::vector<const char*> pointers;
   const auto convention = conventions.find(options.names);
@@ -154,6 +156,9 @@ void add_rig(CLI::App& app) {
                    "model's joint "
                    "names and yours; without it as on the characters")
       ->type_name("NAMES");
+  verb->add_flag("--rest-pose", options->rest_pose,
+                 "Show the mesh in the rest pose (T or A) of the first character that taught the model, by "
+                 "its new joints");
   verb->add_option("--animations", options->animations,
                    "Rigged character whose animations go into the file too, retargeted")
       ->type_name("CHARACTER.glb");

@@ -560,6 +560,10 @@ typedef struct focal_skeleton_params {
   /* A rigged character, loaded with focal_mesh_load_gltf, whose animations focal_skeleton_write_gltf puts in; NULL: none. Its
    * joints should be named as those of the characters that taught the model. */
   const focal_mesh* animations;
+  /* 1: the file shows the character in the rest pose of the first character that taught the model (its T or A pose), moved there by
+   * its new joints; its vertices stay as they were. Default 0: in the pose of the mesh. */
+  int32_t rest_pose;
+  int32_t reserved;
 } focal_skeleton_params;
 
 FOCAL_API focal_status focal_skeleton_params_init(focal_skeleton_params* params, size_t struct_size);

@@ -120,8 +120,11 @@ void SkinInserter::add_joint_nodes() {
     children[j] = std::to_string(next++);
   }
   for (size_t j = 0; j < joints.size(); ++j) {
-    Matrix4 local = joints[j].bind;
-    if (joints[j].parent >= 0) local = joints[joints[j].parent].bind.inverse() * local;
+    const auto stands = [&](size_t joint) {
+      return rig_.pose.empty() ? joints[joint].bind : rig_.pose[joint];
+    };
+    Matrix4 local = stands(j);
+    if (joints[j].parent >= 0) local = stands(static_cast<size_t>(joints[j].parent)).inverse() * local;
     append_element(root_, "nodes",
                    R"({"name":)" + json_string(joints[j].name) + R"(,"translation":)" +
                        json_array(local.topRightCorner<3, 1>()) + R"(,"rotation":)" +
@@ -290,9 +293,12 @@ void check(std::span<const GltfPrimitive> primitives, const GltfRig& rig) {
     vertices =
         std::max<size_t>(vertices, static_cast<size_t>(primitive.first_vertex) + primitive.vertex_count);
   if (joints == 0 || joints > most_joints || vertices != rig.rig->influences.size() ||
-      (!rig.tips.empty() && rig.tips.size() != joints))
+      (!rig.tips.empty() && rig.tips.size() != joints) || (!rig.pose.empty() && rig.pose.size() != joints))
     throw Error(Status::invalid_argument, "the rig does not suit the mesh",
                 "pass the rig made for this mesh");
+  for (const Matrix4& place : rig.pose)
+    if (!place.cast<float>().allFinite())
+      throw Error(Status::invalid_argument, "a joint's pose is not finite", "pass rigid poses");
   for (const Joint& joint : rig.rig->joints)
     if (!joint.bind.cast<float>().allFinite())
       throw Error(Status::invalid_argument, "joint " + json_string(joint.name) + " is not finite",

@@ -41,6 +41,8 @@ struct GltfRig {
       nullptr;  // on the merged mesh of read_gltf: bind matrices rigid, one entry of influences a vertex
   std::vector<Vector3>
       tips;  // per joint where its part ends, world coordinates; a leaf joint gets a node there. Or none
+  std::vector<Matrix4> pose =
+      {};  // where the joints stand in the file; none: as bound, so that the mesh looks as it is
   std::vector<JointAnimation> animations = {};  // added to those of the file
 };
 

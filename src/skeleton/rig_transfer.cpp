@@ -142,6 +142,19 @@ Joints agreed_joints(const std::vector<SkeletonJoint>& skeleton, const std::vect
   return result;
 }
 
+std::vector<Matrix4> rest_pose(const LandmarkModel& model, const std::vector<Joint>& joints) {
+  std::vector<Matrix4> rest;
+  const auto first = std::find_if(model.atlas.begin(), model.atlas.end(),
+                                  [](const AtlasShape& shape) { return shape.rig.has_value(); });
+  for (size_t j = 0; j < joints.size(); ++j) {
+    rest.push_back(joints[j].bind);
+    const int32_t p = joints[j].parent;
+    if (p >= 0) rest[j] = rest[p] * joints[p].bind.inverse() * joints[j].bind;
+    if (const auto& bind = first->rig->bind[j]) rest[j].topLeftCorner<3, 3>() = bind->topLeftCorner<3, 3>();
+  }
+  return rest;
+}
+
 // A joint whose own landmarks are all absent lies where the rest of the body suggests it.
 void warn_of_absent(const Detection& detection, std::vector<std::string>& warnings) {
   for (const SkeletonJoint& joint : detection.model->skeleton) {
@@ -237,6 +250,7 @@ TransferredRig transfer_rig(const Detection& detection, const Execution& executi
     result.tip.push_back(to_caller(joints.tip[j]));
   }
   result.confidence = joints.confidence;
+  result.rest = rest_pose(model, result.rig.joints);
   execution.begin_stage("weights", 0.8, 1);
   const RowMatrixf weights =
       smoothed(mapped_weights(model, analysis, maps, weight, execution), analysis.operators.L);

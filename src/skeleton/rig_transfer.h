@@ -9,8 +9,11 @@
 namespace focal {
 
 struct TransferredRig {
-  Rig rig;                         // in the coordinates of mesh->source; influences a source vertex
-  std::vector<Vector3> tip;        // per joint the far end of its part, in the same coordinates
+  Rig rig;                   // in the coordinates of mesh->source; influences a source vertex
+  std::vector<Vector3> tip;  // per joint the far end of its part, in the same coordinates
+  // Where each joint goes when the character takes the rest pose of the first training character: turned as that one's joints are,
+  // with bones of its own length, its roots where they are.
+  std::vector<Matrix4> rest;
   std::vector<double> confidence;  // per joint 0..1: how well the training shapes agree on its place
   std::vector<std::string> warnings;
 };

@@ -87,7 +87,7 @@ TEST_CASE("an animation put in with a skin is read back the same") {
   wave.joints[1].rotation = {Eigen::Quaterniond::Identity(),
                              Eigen::Quaterniond(Eigen::AngleAxisd(1.0, Vector3::UnitZ()))};
   wave.joints[0].translation = {Vector3::Zero(), Vector3(0, 0, 3)};
-  const auto written = add_skin(source, read_gltf_memory(source).primitives, {&rig, {}, {wave}});
+  const auto written = add_skin(source, read_gltf_memory(source).primitives, {&rig, {}, {}, {wave}});
   const auto read = read_gltf_animations(written);
   REQUIRE(read.size() == 1);
   CHECK(read[0].times == wave.times);

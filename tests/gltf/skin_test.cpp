@@ -209,6 +209,21 @@ TEST_CASE("a thousand joints are numbered in 16 bits") {
   check_same(*read, rig);
 }
 
+TEST_CASE("joints may stand in another pose than they are bound in") {
+  const auto source = tetrahedron().glb();
+  const GltfMesh mesh = read_gltf_memory(source);
+  const Rig rig = two_joints(4);
+  std::vector<Matrix4> pose = {rig.joints[0].bind, place(0.2, {1, 0, 0}, {3, 0, 0})};
+  const auto written = add_skin(source, mesh.primitives, {&rig, {}, pose, {}});
+  const GltfMesh again = read_gltf_memory(written);
+  const auto read = read_gltf_rig(written, again.primitives);
+  REQUIRE(read.has_value());
+  check_same(*read, rig);
+  CHECK_FALSE(again.warnings.empty());  // shown in another pose than bound
+  pose.pop_back();
+  CHECK_THROWS_AS(add_skin(source, mesh.primitives, {&rig, {}, pose, {}}), Error);
+}
+
 TEST_CASE("a rig of another mesh is refused") {
   const auto source = tetrahedron().glb();
   const Rig rig = two_joints(3);

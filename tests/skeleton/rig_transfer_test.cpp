@@ -57,6 +57,17 @@ TEST_CASE("another humanoid in another pose gets its skeleton and weights") {
         if (other.skeleton.joints[t].name == joint.name)
           error += (joint.bind.topRightCorner<3, 1>() - other.pose[t] * other.skeleton.joints[t].rest).norm();
     CHECK(error / static_cast<double>(found.rig.joints.size()) < 0.04 * height(mesh->source));
+    for (size_t j = 0; j < found.rest.size();
+         ++j) {  // bones keep their lengths; the sample's joints are not turned at rest
+      const int32_t p = found.rig.joints[j].parent;
+      CHECK((found.rest[j].topLeftCorner<3, 3>() - Matrix3::Identity()).norm() < 1e-5);
+      if (p < 0) continue;
+      const auto length = [&](const Matrix4& a, const Matrix4& b) {
+        return (a.topRightCorner<3, 1>() - b.topRightCorner<3, 1>()).norm();
+      };
+      CHECK(length(found.rest[j], found.rest[p]) ==
+            doctest::Approx(length(found.rig.joints[j].bind, found.rig.joints[p].bind)));
+    }
     double difference = 0;
     for (size_t v = 0; v < found.rig.influences.size(); ++v) {
       float sum = 0;
