@@ -46,17 +46,20 @@ static_assert(sizeof(void*) != 8 || (sizeof(focal_joint) == 64 && offsetof(focal
 
 namespace {
 
-void rename_joints(const focal_skeleton_params& params, TransferredRig& rig) {
+void check(const focal_skeleton_params& params, size_t joints) {
   check_range("focal_skeleton_params.names", params.names, FOCAL_BONE_NAMES_AS_TRAINED,
               FOCAL_BONE_NAMES_UNITY);
   check_flag("focal_skeleton_params.rest_pose", params.rest_pose);
   check_reserved("focal_skeleton_params", params.reserved);
-  auto& joints = rig.rig.joints;
-  if (params.joint_names ? params.joint_name_count != joints.size() : params.joint_name_count != 0)
+  if (params.joint_names ? params.joint_name_count != joints : params.joint_name_count != 0)
     throw Error(Status::invalid_argument,
                 "focal_skeleton_params.joint_name_count is " + std::to_string(params.joint_name_count) +
-                    ", the model has " + std::to_string(joints.size()) + " joints",
+                    ", the model has " + std::to_string(joints) + " joints",
                 "give one name, or NULL, for each joint of the model");
+}
+
+void rename_joints(const focal_skeleton_params& params, TransferredRig& rig) {
+  auto& joints = rig.rig.joints;
   std::vector<std::string> names, unknown;
   for (const Joint& joint : joints) names.push_back(joint.name);
   names = bone_names(names, static_cast<BoneNames>(params.names), unknown);
@@ -123,12 +126,13 @@ focal_status focal_skeleton_create(const focal_detection* detection, const focal
     const auto object = std::make_shared<SkeletonObject>();
     object->detection = resolve<DetectionObject>(detection);
     const focal_skeleton_params how = read_struct(params);
+    check(how, object->detection->model->info.joint_names.size());
+    const auto character = how.animations ? resolve<MeshObject>(how.animations) : nullptr;
     const TaskLease lease(task);
     const Execution execution = object->detection->model->context->execution_with(lease.task());
     execution.check_cancelled();
     object->rig = transfer_rig(object->detection->detection, execution);
-    if (how.animations) {
-      const auto character = resolve<MeshObject>(how.animations);
+    if (character) {
       object->animations = animations_for(object->rig, *object->detection->mesh->mesh, *character);
       if (object->animations.empty()) object->rig.warnings.push_back("the character has no animations");
     }

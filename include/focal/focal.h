@@ -369,7 +369,7 @@ typedef struct focal_detect_params {
 FOCAL_API focal_status focal_detect_params_init(focal_detect_params* params, size_t struct_size);
 
 /* Finds the model's landmarks on a mesh. params and task may be NULL; runs in the model's context. Errors:
- * CANCELLED, NOT_CONVERGED. The detection keeps mesh and model alive. Holes with a border of up to 1.5 sqrt(area) are
+ * CANCELLED, NOT_CONVERGED. The detection keeps mesh and model alive, and a few MB that skeletons and maps start from. Holes with a border of up to 1.5 sqrt(area) are
  * closed for the analysis (preset default only; a warning tells how many); landmarks still lie on the caller's triangles. */
 FOCAL_API focal_status focal_model_detect(const focal_model* model, const focal_mesh* mesh,
                                           const focal_detect_params* params, focal_task* task,

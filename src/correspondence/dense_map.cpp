@@ -31,9 +31,8 @@ void check(const Detection& from, const Detection& to) {
 
 // The landmarks that were found on both.
 std::vector<int32_t> shared_landmarks(const Detection& from, const Detection& to) {
-  std::vector<int32_t> shared;
-  for (size_t l = 0; l < from.places.size(); ++l)
-    if (from.places[l].triangle >= 0 && to.places[l].triangle >= 0) shared.push_back(static_cast<int32_t>(l));
+  std::vector<int32_t> shared = placed_landmarks(from);
+  std::erase_if(shared, [&](int32_t l) { return to.places[l].triangle < 0; });
   if (shared.size() < 3)
     throw Error(Status::invalid_argument, "fewer than three landmarks were found on both meshes",
                 "are both of the category that the model was learned on?");
@@ -43,9 +42,7 @@ std::vector<int32_t> shared_landmarks(const Detection& from, const Detection& to
 // vertices x landmarks (padded to a multiple of 4): how near each landmark is.
 RowMatrixf nearness(const Detection& detection, const std::vector<int32_t>& landmarks,
                     const Execution& execution) {
-  std::vector<SurfacePoint> places;
-  for (const int32_t l : landmarks) places.push_back(detection.places[l]);
-  const RowMatrixf distances = detection.analysis->heat.distances(places, execution);
+  const RowMatrixf distances = detection.analysis->heat.distances(places_of(detection, landmarks), execution);
   RowMatrixf result = RowMatrixf::Zero(distances.cols(), (distances.rows() + 3) / 4 * 4);
   result.leftCols(distances.rows()) =
       (-distances.transpose().array() / static_cast<float>(near_landmarks)).exp();

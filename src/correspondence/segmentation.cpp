@@ -20,13 +20,6 @@ const SurfaceAnalysis& analysis_of(const Detection& detection) {
   return *detection.analysis;
 }
 
-std::vector<int32_t> found_landmarks(const Detection& detection) {
-  std::vector<int32_t> found;
-  for (size_t l = 0; l < detection.places.size(); ++l)
-    if (detection.places[l].triangle >= 0) found.push_back(static_cast<int32_t>(l));
-  return found;
-}
-
 // Position and SI-HKS of every vertex, each scaled to a mean squared length that says how much it counts.
 RowMatrix features_of(const SurfaceAnalysis& analysis, const Execution& execution) {
   const Eigen::Index n = analysis.surface().vertex_count();
@@ -97,7 +90,7 @@ std::vector<int32_t> segment_k_means(const Detection& detection, const Execution
                                      const std::vector<int32_t>& seed_vertices) {
   const SurfaceAnalysis& analysis = analysis_of(detection);
   const RowMatrix features = features_of(analysis, execution);
-  const std::vector<int32_t> found = found_landmarks(detection);
+  const std::vector<int32_t> found = placed_landmarks(detection);
   const size_t count = seed_vertices.empty() ? found.size() : seed_vertices.size();
   if (count == 0)
     return triangle_labels(*detection.mesh, std::vector<int32_t>(detection.mesh->surface_vertex.size(), -1));
@@ -119,12 +112,10 @@ std::vector<int32_t> segment_k_means(const Detection& detection, const Execution
 
 std::vector<int32_t> segment_geodesic(const Detection& detection, const Execution& execution) {
   const SurfaceAnalysis& analysis = analysis_of(detection);
-  const std::vector<int32_t> found = found_landmarks(detection);
-  std::vector<SurfacePoint> places;
-  for (const int32_t l : found) places.push_back(detection.places[l]);
+  const std::vector<int32_t> found = placed_landmarks(detection);
   std::vector<int32_t> label(static_cast<size_t>(analysis.surface().vertex_count()), -1);
   if (!found.empty()) {
-    const RowMatrixf distances = analysis.heat.distances(places, execution);
+    const RowMatrixf distances = analysis.heat.distances(places_of(detection, found), execution);
     for (size_t v = 0; v < label.size(); ++v) {
       Eigen::Index nearest = 0;
       distances.col(static_cast<Eigen::Index>(v)).minCoeff(&nearest);

@@ -132,6 +132,8 @@ std::vector<GltfAnimation> read_gltf_animations(std::span<const std::byte> bytes
   std::vector<GltfAnimation> result;
   if (!animations || !animations->is_array()) return result;
   const json& nodes = list(root, "nodes");
+  const std::set<int32_t> joints = joints_of(root);
+  int64_t matrices = limits.decoded_bytes / static_cast<int64_t>(sizeof(Matrix4));  // what is left of them
   for (const json& animation : *animations) {
     if (!animation.is_object() || !list(animation, "channels").is_array()) broken("is no object");
     std::vector<Channel> channels;
@@ -142,6 +144,10 @@ std::vector<GltfAnimation> read_gltf_animations(std::span<const std::byte> bytes
     const json* name = member(animation, "name");
     GltfAnimation one{name && name->is_string() ? name->get<std::string>() : "animation", {}, {}};
     one.times = common_times(channels, most_keys);
+    matrices -= static_cast<int64_t>(one.times.size() * (joints.size() + 1));
+    if (matrices < 0)
+      throw Error(Status::unsupported, "glTF with more keys of animations than memory is allowed for",
+                  "export fewer animations, or raise the limit");
     for (const double time : one.times) {
       std::map<int32_t, NodePose> poses;
       for (const Channel& channel : channels) {
@@ -154,7 +160,7 @@ std::vector<GltfAnimation> read_gltf_animations(std::span<const std::byte> bytes
           pose.rotation = Eigen::Quaterniond(value[3], value[0], value[1], value[2]);
       }
       const std::vector<Matrix4> world = world_transforms(root, poses);
-      for (const int32_t joint : joints_of(root)) {
+      for (const int32_t joint : joints) {
         const json* joint_name = member(nodes[static_cast<size_t>(joint)], "name");
         if (!joint_name || !joint_name->is_string()) continue;
         auto& track = one.joints[joint_name->get<std::string>()];

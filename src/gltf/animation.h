@@ -21,7 +21,7 @@ struct GltfAnimation {
 
 // Sampled at the times of all keys of an animation together, at most `most_keys` of them (evenly chosen). Only joints of skins;
 // of two with one name the first. Morph weights and what is animated through extensions are left out. Throws what read_gltf
-// throws.
+// throws; unsupported when the matrices take more than limits.decoded_bytes.
 std::vector<GltfAnimation> read_gltf_animations(std::span<const std::byte> bytes,
                                                 const GltfLimits& limits = {},
                                                 std::optional<std::filesystem::path> folder = std::nullopt,

@@ -28,10 +28,12 @@ size_t append_element(OrderedJson& root, const char* list, const std::string& te
 }
 
 OrderedJson& shown_scene(OrderedJson& root) {
-  OrderedJson& scenes = member_or_new(root, "scenes", OrderedJson::value_t::array);
+  // New members first: each may move the others, so no reference is taken before.
+  for (const char* list : {"scenes", "nodes"}) member_or_new(root, list, OrderedJson::value_t::array);
+  if (root["scenes"].empty()) root["scene"] = 0;
   const OrderedJson* chosen = find(root, "scene");
+  OrderedJson &scenes = root["scenes"], &nodes = root["nodes"];
   if (!scenes.empty()) return scenes[chosen ? chosen->get<size_t>() : 0];
-  OrderedJson& nodes = member_or_new(root, "nodes", OrderedJson::value_t::array);
   std::vector<bool> is_child(nodes.size());
   for (OrderedJson& node : nodes)
     if (const OrderedJson* children = find(node, "children"))
@@ -40,7 +42,6 @@ OrderedJson& shown_scene(OrderedJson& root) {
   OrderedJson& roots = member_or_new(scenes[0], "nodes", OrderedJson::value_t::array);
   for (size_t node = 0; node < is_child.size(); ++node)
     if (!is_child[node]) roots.push_back(node);
-  root["scene"] = 0;
   return scenes[0];
 }
 

@@ -17,7 +17,7 @@ using OrderedJson = nlohmann::ordered_json;
 // Swaps parsed text into `slot`; what was there is freed by the document that held the new part.
 void put(OrderedJson& slot, const std::string& text);
 
-// A member, made as an empty value of this kind when missing.
+// A member, made as an empty value of this kind when missing: references to other members of the object end then.
 OrderedJson& member_or_new(OrderedJson& object, const char* key, OrderedJson::value_t kind);
 
 OrderedJson* find(OrderedJson& object, const char* key);  // null when there is none
@@ -25,7 +25,8 @@ OrderedJson* find(OrderedJson& object, const char* key);  // null when there is 
 // Appends a parsed element to a list of the root; its index.
 size_t append_element(OrderedJson& root, const char* list, const std::string& text);
 
-// The scene that is shown, or the first. A file without any gets one that shows all its roots.
+// The scene that is shown, or the first. A file without any gets one that shows all its roots. References to members of the root
+// end here.
 OrderedJson& shown_scene(OrderedJson& root);
 
 // The file again, of the kind it came as. bin: takes the place of its BIN chunk, or becomes it; empty: as it was.

@@ -94,8 +94,8 @@ size_t LandmarkInserter::take_node() {
 }
 
 void LandmarkInserter::add_nodes(std::span<const GltfLandmark> landmarks) {
-  Json& nodes = member_or_new(root_, "nodes", Json::value_t::array);
   Json& scene_nodes = member_or_new(shown_scene(root_), "nodes", Json::value_t::array);
+  Json& nodes = root_["nodes"];
   release_former_nodes(scene_nodes);
   const size_t group = take_node();
   std::string children;

@@ -16,22 +16,10 @@ using nlohmann::json;
 // The joints of all skins, each node once.
 class Skeleton {
  public:
-  explicit Skeleton(const json& root)
-      : nodes_(list(root, "nodes")), parent_(nodes_.size(), -1), depth_(nodes_.size(), 0) {
+  explicit Skeleton(const json& root) : nodes_(list(root, "nodes")), parent_(nodes_.size(), -1) {
     for (size_t node = 0; node < nodes_.size(); ++node)
       for (const json& child : list(nodes_[node], "children"))
         parent_[child.get<size_t>()] = static_cast<int32_t>(node);
-    std::vector<size_t> open;
-    for (size_t node = 0; node < nodes_.size(); ++node)
-      if (parent_[node] < 0) open.push_back(node);
-    while (!open.empty()) {  // a chain may be as long as there are nodes
-      const size_t node = open.back();
-      open.pop_back();
-      for (const json& child : list(nodes_[node], "children")) {
-        depth_[child.get<size_t>()] = depth_[node] + 1;
-        open.push_back(child.get<size_t>());
-      }
-    }
   }
 
   // bind: from the joint's coordinates to those of the merged mesh. The first skin that names the joint decides.
@@ -39,16 +27,20 @@ class Skeleton {
 
   // Parents before children; order_of gives each node's place.
   std::vector<Joint> joints() {
-    std::vector<int32_t> nodes;
-    for (const auto& [node, bind] : binds_) nodes.push_back(node);
-    std::stable_sort(nodes.begin(), nodes.end(), [&](int32_t a, int32_t b) { return depth_[a] < depth_[b]; });
     std::vector<Joint> result;
-    for (const int32_t node : nodes) {
-      Joint joint{.name = name_of(node), .parent = -1, .bind = binds_.at(node)};
-      for (int32_t up = parent_[node]; up >= 0 && joint.parent < 0; up = parent_[up])
-        if (const auto found = order_.find(up); found != order_.end()) joint.parent = found->second;
-      order_[node] = static_cast<int32_t>(result.size());
-      result.push_back(std::move(joint));
+    std::vector<std::pair<int32_t, int32_t>> open;  // a node, and the joint above it
+    for (size_t node = nodes_.size(); node-- > 0;)
+      if (parent_[node] < 0) open.emplace_back(static_cast<int32_t>(node), -1);
+    while (!open.empty()) {
+      auto [node, above] = open.back();
+      open.pop_back();
+      if (const auto bind = binds_.find(node); bind != binds_.end()) {
+        order_[node] = static_cast<int32_t>(result.size());
+        result.push_back({name_of(node), above, bind->second});
+        above = order_[node];
+      }
+      const json& children = list(nodes_[static_cast<size_t>(node)], "children");
+      for (size_t i = children.size(); i-- > 0;) open.emplace_back(children[i].get<int32_t>(), above);
     }
     return result;
   }
@@ -63,7 +55,7 @@ class Skeleton {
   }
 
   const json& nodes_;
-  std::vector<int32_t> parent_, depth_;
+  std::vector<int32_t> parent_;
   std::map<int32_t, Matrix4> binds_;
   std::map<int32_t, int32_t> order_;
 };

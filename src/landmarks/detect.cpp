@@ -82,6 +82,19 @@ bool suits(const AnalysisParams& made, const AnalysisParams& wanted) {
 
 }  // namespace
 
+std::vector<int32_t> placed_landmarks(const Detection& detection) {
+  std::vector<int32_t> placed;
+  for (size_t l = 0; l < detection.places.size(); ++l)
+    if (detection.places[l].triangle >= 0) placed.push_back(static_cast<int32_t>(l));
+  return placed;
+}
+
+std::vector<SurfacePoint> places_of(const Detection& detection, const std::vector<int32_t>& landmarks) {
+  std::vector<SurfacePoint> places;
+  for (const int32_t l : landmarks) places.push_back(detection.places[l]);
+  return places;
+}
+
 SurfaceAnalysis analyse_for(const TrainParams& trained, std::shared_ptr<const PreparedMesh> mesh,
                             const DetectParams& params, const Execution& execution) {
   validate(params);

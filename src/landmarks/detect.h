@@ -50,6 +50,10 @@ struct Detection {
   StageSeconds seconds;
 };
 
+// Numbers of the landmarks that have a place on the analysed surface, and these places.
+std::vector<int32_t> placed_landmarks(const Detection& detection);
+std::vector<SurfacePoint> places_of(const Detection& detection, const std::vector<int32_t>& landmarks);
+
 Detection detect(std::shared_ptr<const LandmarkModel> model, std::shared_ptr<const PreparedMesh> mesh,
                  const DetectParams& params, const Execution& execution);
 

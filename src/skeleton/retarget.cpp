@@ -1,7 +1,6 @@
 #include "skeleton/retarget.h"
 
 #include <algorithm>
-#include <optional>
 
 #include "mesh/similarity.h"
 
@@ -42,26 +41,18 @@ std::vector<JointKeys> retarget(const std::vector<Joint>& source, const JointTra
                                 const std::vector<Joint>& target, double scale) {
   const double still = least_move * size_of(source);
   std::vector<JointKeys> result(target.size());
-  // The nearest ancestor that the source moves too; what lies between turns with it.
-  const auto moved_parent = [&](size_t j) {
-    int32_t p = target[j].parent;
-    while (p >= 0 && !(tracks.contains(target[p].name) && find(source, target[p].name))) p = target[p].parent;
-    return p;
-  };
   for (size_t j = 0; j < target.size(); ++j) {
-    const auto track = tracks.find(target[j].name);
-    const Joint* from = find(source, target[j].name);
-    const int32_t p = moved_parent(j);
-    if (track == tracks.end() || !from || p != target[j].parent) continue;
-    const Joint* parent = p < 0 ? nullptr : find(source, target[p].name);
-    const auto parent_frame = [&](const Matrix4& matrix) { return p < 0 ? Frame{} : frame_of(matrix); };
-    const Frame at_rest = local(parent ? parent_frame(parent->bind) : Frame{}, frame_of(from->bind));
-    const Frame place = local(p < 0 ? Frame{} : frame_of(target[p].bind), frame_of(target[j].bind));
+    const int32_t p = target[j].parent;
+    const auto track = tracks.find(target[j].name),
+               track_above = p < 0 ? tracks.end() : tracks.find(target[p].name);
+    const Joint *from = find(source, target[j].name), *above = p < 0 ? nullptr : find(source, target[p].name);
+    if (track == tracks.end() || !from || (p >= 0 && (track_above == tracks.end() || !above))) continue;
+    const Frame at_rest = local(above ? frame_of(above->bind) : Frame{}, frame_of(from->bind));
+    const Frame place = local(above ? frame_of(target[p].bind) : Frame{}, frame_of(target[j].bind));
     double farthest = 0;
     JointKeys& out = result[j];
     for (size_t t = 0; t < track->second.size(); ++t) {
-      const Frame above = p < 0 ? Frame{} : frame_of(tracks.at(target[p].name)[t]);
-      const Frame now = local(above, frame_of(track->second[t]));
+      const Frame now = local(above ? frame_of(track_above->second[t]) : Frame{}, frame_of(track->second[t]));
       Eigen::Quaterniond q(now.turn);
       if (t > 0 && q.dot(out.rotation.back()) < 0) q.coeffs() *= -1;  // the short way round from key to key
       out.rotation.push_back(q);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "base/error.h"
 #include "landmarks/atlas.h"
@@ -16,6 +15,7 @@ namespace {
 // Chosen on left-out training characters; see docs/accuracy.md.
 constexpr double alike_falloff = 30;    // a shape counts exp(-falloff (residual - least residual))
 constexpr double place_outlier = 0.02;  // of sqrt(area): places farther from the consensus count less
+constexpr double ring_radius = 0.15;    // of sqrt(area): what is farther from the joint hardly counts
 constexpr double ring_softness = 0.05;  // share of a joint's part that counts beside its ring
 constexpr int smoothing_rounds = 1;     // of the weights; each more costs 0.01 of their L1 error
 constexpr float least_weight = 0.02f;   // lighter influences are dropped
@@ -36,18 +36,15 @@ std::vector<ShapeMap> maps_of(const Detection& detection, const Execution& execu
   if (!detection.analysis)
     throw Error(Status::invalid_argument, "the detection keeps no analysis of the mesh",
                 "detect on the mesh itself");
-  std::vector<int32_t> landmark;
-  std::vector<SurfacePoint> places;
-  for (size_t l = 0; l < detection.places.size(); ++l)
-    if (detection.places[l].triangle >= 0)
-      landmark.push_back(static_cast<int32_t>(l)), places.push_back(detection.places[l]);
+  const std::vector<int32_t> landmark = placed_landmarks(detection);
   if (landmark.size() < 3)
     throw Error(Status::invalid_argument, "fewer than three landmarks were found on the mesh",
                 "is it of the category that the model was learned on?");
   const SurfaceAnalysis& analysis = *detection.analysis;
-  CarryParams params{.map = {.first = 20, .last = 120, .step = 8}, .exact_points = true};
-  auto maps = map_shapes(model.atlas, model.reach, analysis, landmark,
-                         analysis.heat.distances(places, execution), params, execution);
+  const CarryParams params{.map = {.first = 20, .last = 120, .step = 8}, .exact_points = true};
+  auto maps =
+      map_shapes(model.atlas, model.reach, analysis, landmark,
+                 analysis.heat.distances(places_of(detection, landmark), execution), params, execution);
   std::erase_if(maps, [&](const ShapeMap& one) { return !model.atlas[one.shape].rig; });
   return maps;
 }
@@ -70,7 +67,7 @@ Opinion opinion_of(const std::vector<SkeletonJoint>& skeleton, const AtlasShape&
         if (one.joint == static_cast<int32_t>(j)) own[i] = one.weight * area[i];
       const double share = below(i, static_cast<Eigen::Index>(j));
       const double away = (shape.positions.row(i).transpose() - rig.bind[j]->topRightCorner<3, 1>()).norm();
-      ring[i] = area[i] * 4 * share * (1 - share) * std::exp(-std::pow(away / 0.15, 2));
+      ring[i] = area[i] * 4 * share * (1 - share) * std::exp(-std::pow(away / ring_radius, 2));
     }
     if (ring.sum() < 1e-6) ring.setZero();
     Vector near = ring + ring_softness * own;

@@ -1,10 +1,8 @@
 #include "skeleton/rigged_shapes.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 #include "base/error.h"
 #include "base/random.h"
@@ -103,15 +101,14 @@ ShapeRig shape_rig(const RiggedMesh& character, const std::vector<SkeletonJoint>
 // What a joint does to the vertices it moves: turned and scaled about its place, its children carried along.
 std::vector<Matrix4> random_motion(const std::vector<SkeletonJoint>& skeleton, const ShapeRig& rig,
                                    Random& random) {
-  const auto gaussian = [&] { return random.normal(); };
   std::vector<Matrix4> motion(skeleton.size(), Matrix4::Identity());
   std::vector<Matrix3> turn(skeleton.size(), Matrix3::Identity());
   std::vector<double> size(skeleton.size(), 1);
   for (size_t j = 0; j < skeleton.size(); ++j) {
     const int32_t p = skeleton[j].parent;
-    const Vector3 axis = Vector3(gaussian(), gaussian(), gaussian()).stableNormalized();
-    const double angle = p < 0 ? 0 : std::clamp(pose_deviation * gaussian(), -most_turned, most_turned);
-    size[j] = std::exp(size_deviation * gaussian());
+    const Vector3 axis = Vector3(random.normal(), random.normal(), random.normal()).stableNormalized();
+    const double angle = p < 0 ? 0 : std::clamp(pose_deviation * random.normal(), -most_turned, most_turned);
+    size[j] = std::exp(size_deviation * random.normal());
     turn[j] = Eigen::AngleAxisd(angle, axis.norm() > 0 ? axis : Vector3::UnitX()).toRotationMatrix();
     if (p >= 0) turn[j] = turn[p] * turn[j];
     if (!rig.bind[j]) {

@@ -66,6 +66,7 @@ TEST_CASE("keys of all channels, between them linear or a step, after the last i
 TEST_CASE("keys that do not fit are refused") {
   CHECK_THROWS_AS(read_gltf_animations(turning("LINEAR", {0, 0}).glb()), Error);
   CHECK_THROWS_AS(read_gltf_animations(turning("LINEAR", {0}).glb()), Error);
+  CHECK_THROWS_AS(read_gltf_animations(turning("LINEAR").glb(), {.decoded_bytes = 1024}), Error);
   GltfBuilder file = turning("LINEAR");
   file.root["animations"][0]["samplers"][0]["output"] = 99;
   CHECK_THROWS_AS(read_gltf_animations(file.glb()), Error);

@@ -133,6 +133,18 @@ TEST_CASE("files without scenes, nodes or object extras take landmarks too") {
   CHECK(parsed(result)["meshes"][0]["extras"] == 7);
 }
 
+TEST_CASE("a document that has to grow while it is edited") {  // its members move in memory then
+  for (int more = 0; more < 12; ++more) {
+    GltfBuilder file = tetrahedron();
+    for (const char* gone : {"scene", "scenes", "nodes"}) file.root.erase(gone);
+    for (int i = 0; i < more; ++i) file.root["extra" + std::to_string(i)] = i;
+    const auto source = file.glb();
+    const auto result = add_landmarks(source, read_gltf_memory(source).primitives, three_landmarks());
+    CHECK(parsed(result)["scenes"][0]["nodes"].size() == 1);
+    CHECK(parsed(result)["nodes"].size() == 3);
+  }
+}
+
 TEST_CASE("the second mesh's triangles are counted from its own, a mirrored one's corners turned back") {
   GltfBuilder file = tetrahedron();
   file.add_mesh(0, 1);
