@@ -1,6 +1,7 @@
 // focal rig: the skeleton and skin weights of a model's characters, put into a mesh's own glTF.
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <iostream>
 #include <map>
 
@@ -29,6 +30,9 @@ const std::map<std::string, focal_bone_names> conventions = {
 
 // A JSON object from the model's joint names to others; a joint that it lacks keeps its name.
 std::vector<std::string> names_from_file(const std::string& path, const std::vector<std::string>& joints) {
+  if (!std::filesystem::exists(path))
+    throw CommandError("'" + path + "' is neither a convention of bone names nor a file",
+                       "write vrm, mixamo, unreal, rigify, unity or godot, or pass a JSON file of names");
   const Json file = Json::parse(read_text_file(path), nullptr, false);
   if (!file.is_object())
     throw CommandError(path + " is not an object of joint names", R"(write {"hips": "Pelvis", ...})");
