@@ -10,6 +10,8 @@
 #include "base/error.h"
 #include "base/stopwatch.h"
 #include "boundary.h"
+#include "gltf/animation.h"
+#include "gltf/skin.h"
 #include "structs.h"
 #include "surface_points.h"
 
@@ -21,7 +23,9 @@ struct StructTraits<focal_mesh_params> {
   static constexpr size_t first_size = 64;
   static focal_mesh_params defaults();
 };
-static_assert(sizeof(focal_mesh_params) == 64 && offsetof(focal_mesh_params, max_vertices) == 24);
+static_assert(sizeof(void*) != 8 ||
+              (sizeof(focal_mesh_params) == 80 && offsetof(focal_mesh_params, max_vertices) == 24 &&
+               offsetof(focal_mesh_params, pose_time) == 72));
 
 template <>
 struct StructTraits<focal_mesh_desc> {
@@ -71,6 +75,7 @@ focal_mesh_params checked(const focal_mesh_params* given) {
   check_range("focal_mesh_params.max_nodes", static_cast<double>(params.max_nodes), 1, most);
   check_range("focal_mesh_params.max_json_bytes", static_cast<double>(params.max_json_bytes), 1, 0x1p40);
   check_range("focal_mesh_params.max_file_bytes", static_cast<double>(params.max_file_bytes), 1, 0x1p40);
+  check_range("focal_mesh_params.pose_time", params.pose_time, 0, 1e9);
   return params;
 }
 
@@ -159,6 +164,30 @@ LoadedFile read_bytes(std::span<const std::byte> bytes, const GltfReadParams& ho
   return {std::move(gltf), {bytes.begin(), bytes.end()}};
 }
 
+// Moves what has a skin to where an animation has it at a time.
+void pose(LoadedFile& loaded, const std::string& animation, double time, const GltfLimits& limits) {
+  const auto rig = read_gltf_rig(loaded.bytes, loaded.gltf.primitives, limits, loaded.folder);
+  std::vector<std::string> names;
+  for (const GltfAnimation& one : read_gltf_animations(loaded.bytes, limits, loaded.folder)) {
+    names.push_back(one.name);
+    if (!rig || one.name != animation) continue;
+    std::vector<Matrix4> transforms;
+    for (const Joint& joint : rig->joints) {
+      const auto track = one.joints.find(joint.name);
+      transforms.push_back(track == one.joints.end()
+                               ? Matrix4(Matrix4::Identity())
+                               : Matrix4(at_time(one.times, track->second, time) * joint.bind.inverse()));
+    }
+    loaded.gltf.mesh.positions = skinned(loaded.gltf.mesh.positions, rig->influences, transforms);
+    return;
+  }
+  std::string hint = rig ? "it has: " : "it has no skin that an animation could move";
+  for (const std::string& name : names)
+    if (rig) hint += (&name == &names[0] ? "'" : ", '") + name + "'";
+  throw Error(Status::invalid_argument, "the file has no animation '" + animation + "' of a skinned mesh",
+              rig && names.empty() ? "it has no animations" : hint);
+}
+
 // read(how, keep) gives a LoadedFile.
 template <class Read>
 focal_mesh* load(const focal_context* context, const focal_mesh_params* given, Read&& read) {
@@ -167,7 +196,11 @@ focal_mesh* load(const focal_context* context, const focal_mesh_params* given, R
   const GltfReadParams how = read_params(params);
   const auto object = std::make_shared<MeshObject>();
   Stopwatch watch;
-  LoadedFile loaded = read(how, params.keep_source_file != 0);
+  LoadedFile loaded = read(how, params.keep_source_file != 0 || params.pose_animation);
+  if (params.pose_animation) {
+    pose(loaded, params.pose_animation, params.pose_time, how.limits);
+    loaded.bytes.clear();
+  }
   object->load_seconds = watch.lap();
   object->file = std::move(loaded.bytes);
   object->primitives = std::move(loaded.gltf.primitives);

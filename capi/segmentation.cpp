@@ -21,7 +21,7 @@ namespace {
 
 // The joint that moves each triangle most.
 std::vector<int32_t> segment_by_skeleton(const Detection& detection, const Execution& execution) {
-  const TransferredRig rig = transfer_rig(detection, execution);
+  const CharacterRig rig = transfer_rig(detection, execution);
   std::vector<int32_t> joint;
   for (const VertexInfluences& influences : rig.rig.influences)
     joint.push_back(influences[0].weight > 0 ? influences[0].joint : -1);

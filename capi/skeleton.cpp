@@ -13,6 +13,7 @@
 #include "gltf/writer.h"
 #include "skeleton/bone_names.h"
 #include "skeleton/retarget.h"
+#include "skeleton_template.h"
 #include "structs.h"
 #include "surface_points.h"
 #include "task.h"
@@ -25,7 +26,7 @@ struct StructTraits<focal_skeleton_params> {
   static constexpr size_t first_size = sizeof(focal_skeleton_params);
   static focal_skeleton_params defaults() { return {}; }
 };
-static_assert(sizeof(void*) != 8 || (sizeof(focal_skeleton_params) == 40 &&
+static_assert(sizeof(void*) != 8 || (sizeof(focal_skeleton_params) == 48 &&
                                      offsetof(focal_skeleton_params, joint_name_count) == 16));
 
 template <>
@@ -46,19 +47,25 @@ static_assert(sizeof(void*) != 8 || (sizeof(focal_joint) == 64 && offsetof(focal
 
 namespace {
 
-void check(const focal_skeleton_params& params, size_t joints) {
+void check(const focal_skeleton_params& params) {
   check_range("focal_skeleton_params.names", params.names, FOCAL_BONE_NAMES_AS_TRAINED,
               FOCAL_BONE_NAMES_UNITY);
   check_flag("focal_skeleton_params.rest_pose", params.rest_pose);
-  check_reserved("focal_skeleton_params", params.reserved);
+  check_flag("focal_skeleton_params.symmetric", params.symmetric);
+  if (params.skeleton_template && params.animations)
+    throw Error(Status::invalid_argument, "animations were asked for together with a template",
+                "they need the joints of the characters that taught the model; leave one of the two out");
+}
+
+void check_names(const focal_skeleton_params& params, size_t joints) {
   if (params.joint_names ? params.joint_name_count != joints : params.joint_name_count != 0)
     throw Error(Status::invalid_argument,
                 "focal_skeleton_params.joint_name_count is " + std::to_string(params.joint_name_count) +
-                    ", the model has " + std::to_string(joints) + " joints",
-                "give one name, or NULL, for each joint of the model");
+                    ", the skeleton has " + std::to_string(joints) + " joints",
+                "give one name, or NULL, for each joint of the model or template");
 }
 
-void rename_joints(const focal_skeleton_params& params, TransferredRig& rig) {
+void rename_joints(const focal_skeleton_params& params, CharacterRig& rig) {
   auto& joints = rig.rig.joints;
   std::vector<std::string> names, unknown;
   for (const Joint& joint : joints) names.push_back(joint.name);
@@ -69,7 +76,7 @@ void rename_joints(const focal_skeleton_params& params, TransferredRig& rig) {
     joints[j].name = params.joint_names && params.joint_names[j] ? params.joint_names[j] : names[j];
 }
 
-std::vector<JointAnimation> animations_for(const TransferredRig& rig, const PreparedMesh& target,
+std::vector<JointAnimation> animations_for(const CharacterRig& rig, const PreparedMesh& target,
                                            const MeshObject& character) {
   if (character.file.empty())
     throw Error(Status::invalid_argument, "the character has no glTF file to take animations from",
@@ -86,7 +93,7 @@ std::vector<JointAnimation> animations_for(const TransferredRig& rig, const Prep
   return result;
 }
 
-focal_joint to_abi(const TransferredRig& rig, size_t index) {
+focal_joint to_abi(const CharacterRig& rig, size_t index) {
   const Joint& from = rig.rig.joints[index];
   focal_joint to{};
   to.parent = from.parent;
@@ -126,12 +133,21 @@ focal_status focal_skeleton_create(const focal_detection* detection, const focal
     const auto object = std::make_shared<SkeletonObject>();
     object->detection = resolve<DetectionObject>(detection);
     const focal_skeleton_params how = read_struct(params);
-    check(how, object->detection->model->info.joint_names.size());
+    check(how);
+    std::optional<SkeletonTemplate> by_hand;
+    if (how.skeleton_template) by_hand = parse_skeleton_template(how.skeleton_template);
+    check_names(how, by_hand ? by_hand->joints.size() : object->detection->model->info.joint_names.size());
     const auto character = how.animations ? resolve<MeshObject>(how.animations) : nullptr;
     const TaskLease lease(task);
     const Execution execution = object->detection->model->context->execution_with(lease.task());
     execution.check_cancelled();
-    object->rig = transfer_rig(object->detection->detection, execution);
+    const Detection& found = object->detection->detection;
+    if (by_hand) by_hand->symmetric |= how.symmetric != 0;
+    object->rig = by_hand ? rig_by_template(*by_hand, found, execution)
+                          : transfer_rig(found, execution, how.symmetric != 0);
+    if (how.rest_pose && object->rig.rest.empty())
+      throw Error(Status::invalid_argument, "the template has no rest pose",
+                  R"(give its joints a "rest": the way their bones point)");
     if (character) {
       object->animations = animations_for(object->rig, *object->detection->mesh->mesh, *character);
       if (object->animations.empty()) object->rig.warnings.push_back("the character has no animations");

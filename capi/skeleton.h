@@ -15,7 +15,7 @@ struct SkeletonObject {
   static constexpr HandleType type = HandleType::skeleton;
 
   std::shared_ptr<const DetectionObject> detection;
-  TransferredRig rig;
+  CharacterRig rig;
   std::vector<JointAnimation> animations;
   bool in_rest_pose = false;  // as the file shows it
 };

@@ -18,8 +18,8 @@ namespace focal_cli {
 namespace {
 
 struct Options : CommonOptions {
-  std::string model, mesh, output, names, animations;
-  bool rest_pose = false;
+  std::string model, mesh, output, names, animations, skeleton_template;
+  bool rest_pose = false, symmetric = false;
   focal_quality quality = FOCAL_QUALITY_BEST;
 };
 
@@ -47,18 +47,36 @@ std::vector<std::string> names_from_file(const std::string& path, const std::vec
   return names;
 }
 
+// In order; what is wrong with a template the library says.
+std::vector<std::string> template_joints(const std::string& text) {
+  std::vector<std::string> names;
+  const Json file = Json::parse(text, nullptr, false);
+  if (file.is_object() && file.contains("joints") && file["joints"].is_array())
+    for (const Json& joint : file["joints"])
+      names.push_back(joint.is_object() && joint.contains("name") && joint["name"].is_string()
+                          ? joint["name"].get<std::string>()
+                          : "");
+  return names;
+}
+
 Skeleton skeleton_of(const Options& options, const focal_model* model, const focal_detection* detection,
                      const focal_mesh* animations, focal_task* task) {
   auto params = initialised(focal_skeleton_params_init);
   params.animations = animations;
-  params.rest_pose = options.rest_pose;
+  params.rest_pose = options.rest_pose, params.symmetric = options.symmetric;
+  std::string skeleton_template;
+  if (!options.skeleton_template.empty()) {
+    skeleton_template = read_text_file(options.skeleton_template);
+    params.skeleton_template = skeleton_template.c_str();
+  }
   std::vector<std::string> names;
   std::vector<const char*> pointers;
   const auto convention = conventions.find(options.names);
   if (convention != conventions.end()) {
     params.names = convention->second;
   } else if (!options.names.empty()) {
-    names = names_from_file(options.names, joint_names_of(model));
+    names = names_from_file(options.names, skeleton_template.empty() ? joint_names_of(model)
+                                                                     : template_joints(skeleton_template));
     for (const std::string& name : names) pointers.push_back(name.c_str());
     params.joint_names = pointers.data(), params.joint_name_count = pointers.size();
   }
@@ -120,9 +138,11 @@ void rig(const Options& options) {
   const Context context = make_context(options);
   Progress progress(options.quiet);
   const auto model = owned<Model>(focal_model_load, context.get(), options.model.c_str());
-  if (focal_model_joint_count(model.get()) == 0)
-    throw CommandError("the model knows no skeleton",
-                       "train one on rigged characters: focal train --rigs A.glb -o MODEL");
+  if (focal_model_joint_count(model.get()) == 0 && options.skeleton_template.empty())
+    throw CommandError(
+        "the model knows no skeleton",
+        "train one on rigged characters: focal train --rigs A.glb -o MODEL; or describe one over its "
+        "landmarks: --template FILE.json");
   const Mesh mesh = load_mesh(context.get(), options.mesh);
   auto params = detect_params_of(options.quality, options);
   params.keep_votes = 0;
@@ -157,9 +177,15 @@ void add_rig(CLI::App& app) {
       ->required();
   verb->add_option("--names", options->names,
                    "What bones are called: vrm, mixamo, unreal, rigify, unity, godot, or a JSON file of the "
-                   "model's joint "
-                   "names and yours; without it as on the characters")
+                   "model's joint names and yours; without it as on the characters")
       ->type_name("NAMES");
+  verb->add_option(
+          "--template", options->skeleton_template,
+          "A skeleton of your own over the model's landmarks, see docs/rigs.md; without it that of the "
+          "characters")
+      ->type_name("FILE.json");
+  verb->add_flag("--symmetric", options->symmetric,
+                 "Bones of the left and right side, told by their names, get the same length");
   verb->add_flag("--rest-pose", options->rest_pose,
                  "Show the mesh in the rest pose (T or A) of the first character that taught the model, by "
                  "its new joints");

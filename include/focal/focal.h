@@ -188,6 +188,10 @@ typedef struct focal_mesh_params {
   uint64_t max_nodes;           /* 1 or more. Default 1,000,000 */
   uint64_t max_json_bytes;      /* 1 or more. Default 64 MiB */
   uint64_t max_file_bytes;      /* 1 or more, also for each external file. Default 2 GiB */
+  /* Name of an animation of the file: skinned meshes come in the pose that it gives them at pose_time (seconds, 0 or more; past its
+   * end as at its end) instead of the bind pose. Such a mesh keeps no file: results are written as a plain .glb. NULL: none. */
+  const char* pose_animation;
+  double pose_time;
 } focal_mesh_params;
 
 FOCAL_API focal_status focal_mesh_params_init(focal_mesh_params* params, size_t struct_size);
@@ -563,7 +567,12 @@ typedef struct focal_skeleton_params {
   /* 1: the file shows the character in the rest pose of the first character that taught the model (its T or A pose), moved there by
    * its new joints; its vertices stay as they were. Default 0: in the pose of the mesh. */
   int32_t rest_pose;
-  int32_t reserved;
+  /* 1: bones of the left and right side, told by their names, get the same length. Default 0. A template may ask for it too. */
+  int32_t symmetric;
+  /* A skeleton of your own over the model's landmarks, as JSON text (docs/rigs.md describes it); weights then follow from its bones
+   * by heat. NULL: the skeleton of the characters that taught the model. With a template, animations is not allowed, and rest_pose
+   * only when the template gives one. */
+  const char* skeleton_template;
 } focal_skeleton_params;
 
 FOCAL_API focal_status focal_skeleton_params_init(focal_skeleton_params* params, size_t struct_size);
@@ -573,8 +582,8 @@ FOCAL_API uint32_t focal_model_joint_count(const focal_model* model);
 FOCAL_API const char* focal_model_joint_name(const focal_model* model, uint32_t index);
 
 /* Joints and skin weights for the mesh of a detection, in the pose that it has; about a second. params and task may be NULL.
- * Errors: INVALID_ARGUMENT (the model was not learned from rigged characters; fewer than three landmarks found), CANCELLED.
- * It keeps the detection alive. */
+ * Errors: INVALID_ARGUMENT (no template, and the model was not learned from rigged characters; fewer than three landmarks found; a
+ * template that names what is not there), INVALID_FILE (the template is no JSON), CANCELLED. It keeps the detection alive. */
 FOCAL_API focal_status focal_skeleton_create(const focal_detection* detection,
                                              const focal_skeleton_params* params, focal_task* task,
                                              focal_skeleton** out_skeleton);

@@ -173,4 +173,12 @@ std::vector<GltfAnimation> read_gltf_animations(std::span<const std::byte> bytes
   return result;
 }
 
+Matrix4 at_time(const std::vector<double>& times, const std::vector<Matrix4>& matrices, double time) {
+  const auto next = static_cast<size_t>(std::upper_bound(times.begin(), times.end(), time) - times.begin());
+  if (next == 0) return matrices.front();
+  if (next == times.size()) return matrices.back();
+  const double t = (time - times[next - 1]) / (times[next] - times[next - 1]);
+  return (1 - t) * matrices[next - 1] + t * matrices[next];
+}
+
 }  // namespace focal

@@ -27,4 +27,7 @@ std::vector<GltfAnimation> read_gltf_animations(std::span<const std::byte> bytes
                                                 std::optional<std::filesystem::path> folder = std::nullopt,
                                                 int32_t most_keys = 2000);
 
+// Between two of the times the matrices are mixed; before the first and past the last they stay.
+Matrix4 at_time(const std::vector<double>& times, const std::vector<Matrix4>& matrices, double time);
+
 }  // namespace focal

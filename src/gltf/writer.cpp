@@ -18,16 +18,9 @@ void append(std::vector<std::byte>& bytes, const T* values, size_t count) {
   bytes.insert(bytes.end(), data.begin(), data.end());
 }
 
-// Sums of the cross products around each vertex: weighted by area. A vertex of no triangle gets any unit vector.
+// A vertex of no triangle gets any unit vector.
 RowMatrixf smooth_normals(const TriangleMesh& mesh) {
-  MatrixX3 sums = MatrixX3::Zero(mesh.vertex_count(), 3);
-  for (int32_t t = 0; t < mesh.triangle_count(); ++t) {
-    const auto corners = mesh.triangles.row(t);
-    const Vector3 a = mesh.positions.row(corners(0)), b = mesh.positions.row(corners(1)),
-                  c = mesh.positions.row(corners(2));
-    const Vector3 cross = (b - a).cross(c - a);
-    for (const int32_t corner : corners) sums.row(corner) += cross.transpose();
-  }
+  MatrixX3 sums = area_normals(mesh);
   for (Eigen::Index vertex = 0; vertex < sums.rows(); ++vertex) {
     const Vector3 unit = Vector3(sums.row(vertex)).stableNormalized();
     const bool usable = unit.allFinite() && std::abs(unit.norm() - 1) < 1e-6;

@@ -67,15 +67,6 @@ SurfacePoint mean_place(const SurfaceAnalysis& analysis, const MatrixX3& normals
   return closest_points(mesh, std::span(&query, 1), 2 * analysis.operators.mean_edge)[0];
 }
 
-MatrixX3 vertex_normals(const TriangleMesh& mesh) {
-  MatrixX3 normals = MatrixX3::Zero(mesh.vertex_count(), 3);
-  for (int32_t t = 0; t < mesh.triangle_count(); ++t) {
-    const auto at = [&](int i) -> Eigen::RowVector3d { return mesh.positions.row(mesh.triangles(t, i)); };
-    for (int i = 0; i < 3; ++i) normals.row(mesh.triangles(t, i)) += (at(1) - at(0)).cross(at(2) - at(0));
-  }
-  return normals;
-}
-
 }  // namespace
 
 void refine_placement(const ConstellationStatistics& statistics, const SurfaceAnalysis& analysis,
@@ -87,7 +78,7 @@ void refine_placement(const ConstellationStatistics& statistics, const SurfaceAn
   const auto at_vertices = points_at(analysis.surface(), vertex);
   for (size_t p = 0; p < placed.size(); ++p) placement.point[placed[p]] = at_vertices[p];
   if (placed.size() < 2) return;
-  const MatrixX3 normals = vertex_normals(analysis.surface());
+  const MatrixX3 normals = area_normals(analysis.surface());
   for (int32_t round = 0; round < rounds; ++round) {
     const RowMatrixf fields = analysis.heat.distances(vertex, execution);
     parallel_for(execution, static_cast<int64_t>(placed.size()), [&](int64_t p) {

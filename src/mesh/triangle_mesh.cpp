@@ -62,4 +62,14 @@ Vector3 position_of(const TriangleMesh& mesh, const SurfacePoint& point) {
   return position;
 }
 
+MatrixX3 area_normals(const TriangleMesh& mesh) {
+  MatrixX3 normals = MatrixX3::Zero(mesh.vertex_count(), 3);
+  for (int32_t t = 0; t < mesh.triangle_count(); ++t) {
+    const auto at = [&](int i) -> Eigen::RowVector3d { return mesh.positions.row(mesh.triangles(t, i)); };
+    const Eigen::RowVector3d cross = (at(1) - at(0)).cross(at(2) - at(0));
+    for (int i = 0; i < 3; ++i) normals.row(mesh.triangles(t, i)) += cross;
+  }
+  return normals;
+}
+
 }  // namespace focal

@@ -22,6 +22,9 @@ double surface_area(const TriangleMesh& mesh);
 double mean_edge_length(const TriangleMesh& mesh);  // over the undirected edges, each once
 Vector3 position_of(const TriangleMesh& mesh, const SurfacePoint& point);
 
+// n x 3: twice the area of the triangles round each vertex, along their mean normal.
+MatrixX3 area_normals(const TriangleMesh& mesh);
+
 // Undirected edges, each once, smaller index first, sorted; row e is (a, b).
 Eigen::Matrix<int32_t, Eigen::Dynamic, 2, Eigen::RowMajor> edges_of(const TriangleMesh& mesh);
 

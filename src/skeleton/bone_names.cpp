@@ -99,4 +99,30 @@ std::vector<std::string> bone_names(const std::vector<std::string>& names, BoneN
   return result;
 }
 
+std::optional<std::string> mirrored_name(const std::string& name) {
+  struct Sides {
+    std::string from, to;
+  };
+  static const std::vector<Sides> words = {{"left", "right"}, {"right", "left"}, {"Left", "Right"},
+                                           {"Right", "Left"}, {"LEFT", "RIGHT"}, {"RIGHT", "LEFT"}};
+  static const std::vector<Sides> letters = {{"L", "R"}, {"R", "L"}, {"l", "r"}, {"r", "l"}};
+  const auto is_letter = [&](size_t at) {
+    return at < name.size() && std::isalpha(static_cast<unsigned char>(name[at]));
+  };
+  const auto swapped = [&](size_t at, const Sides& sides) {
+    return name.substr(0, at) + sides.to + name.substr(at + sides.from.size());
+  };
+  for (const Sides& sides : words)
+    for (size_t at = name.find(sides.from); at != std::string::npos; at = name.find(sides.from, at + 1))
+      // "bright" and "cleft" have no side.
+      if (at == 0 || !is_letter(at - 1) ||
+          (std::isupper(static_cast<unsigned char>(name[at])) &&
+           std::islower(static_cast<unsigned char>(name[at - 1]))))
+        return swapped(at, sides);
+  for (const Sides& sides : letters)
+    for (size_t at = name.find(sides.from); at != std::string::npos; at = name.find(sides.from, at + 1))
+      if (name.size() > 1 && (at == 0 || !is_letter(at - 1)) && !is_letter(at + 1)) return swapped(at, sides);
+  return std::nullopt;
+}
+
 }  // namespace focal

@@ -16,4 +16,8 @@ std::optional<std::string> bone_name(const std::string& name, BoneNames conventi
 std::vector<std::string> bone_names(const std::vector<std::string>& names, BoneNames convention,
                                     std::vector<std::string>& unknown);
 
+// The name of the same thing on the other side: left and right, or a single L and R set apart (hand.L, L_hand, hand_l), whatever
+// the case. Nothing for a name without a side.
+std::optional<std::string> mirrored_name(const std::string& name);
+
 }  // namespace focal

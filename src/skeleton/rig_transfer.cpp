@@ -18,7 +18,6 @@ constexpr double place_outlier = 0.02;  // of sqrt(area): places farther from th
 constexpr double ring_radius = 0.15;    // of sqrt(area): what is farther from the joint hardly counts
 constexpr double ring_softness = 0.05;  // share of a joint's part that counts beside its ring
 constexpr int smoothing_rounds = 1;     // of the weights; each more costs 0.01 of their L1 error
-constexpr float least_weight = 0.02f;   // lighter influences are dropped
 
 // What one training shape says of the new character, in the coordinates of the full surface.
 struct Opinion {
@@ -201,17 +200,9 @@ RowMatrixf smoothed(RowMatrixf weights, const SparseMatrix& L) {
   return weights;
 }
 
-VertexInfluences influences_of(const Eigen::Ref<const Eigen::RowVectorXf>& weights) {
-  std::vector<Influence> influences;
-  const float total = weights.sum();
-  for (Eigen::Index j = 0; j < weights.size(); ++j)
-    if (weights[j] > least_weight * total) influences.push_back({static_cast<int32_t>(j), weights[j]});
-  return heaviest(influences);
-}
-
 }  // namespace
 
-TransferredRig transfer_rig(const Detection& detection, const Execution& execution) {
+CharacterRig transfer_rig(const Detection& detection, const Execution& execution, bool symmetric) {
   const LandmarkModel& model = *detection.model;
   execution.begin_stage("maps", 0, 0.7);
   const std::vector<ShapeMap> maps = maps_of(detection, execution);
@@ -220,7 +211,6 @@ TransferredRig transfer_rig(const Detection& detection, const Execution& executi
                 "train with rigged characters");
   execution.begin_stage("joints", 0.7, 0.8);
   const SurfaceAnalysis& analysis = *detection.analysis;
-  const PreparedMesh& full = *detection.mesh;
   // Where the analysed vertices lie in the coordinates of the full surface.
   MatrixX3 vertices = analysis.surface().positions;
   if (!analysis.proxy.is_full())
@@ -235,9 +225,10 @@ TransferredRig transfer_rig(const Detection& detection, const Execution& executi
     opinions[m] = opinion_of(model.skeleton, model.atlas[maps[m].shape], maps[m].map.image, vertices);
     opinions[m].weight = weight[m];
   });
-  TransferredRig result;
+  CharacterRig result;
   const Joints joints = agreed_joints(model.skeleton, opinions, result.warnings);
   warn_of_absent(detection, result.warnings);
+  const PreparedMesh& full = *detection.mesh;
   const auto to_caller = [&](const Vector3& p) -> Vector3 { return full.centre + full.scale * p; };
   for (size_t j = 0; j < model.skeleton.size(); ++j) {
     Joint joint{model.skeleton[j].name, model.skeleton[j].parent};
@@ -247,21 +238,11 @@ TransferredRig transfer_rig(const Detection& detection, const Execution& executi
     result.tip.push_back(to_caller(joints.tip[j]));
   }
   result.confidence = joints.confidence;
+  if (symmetric) make_bones_symmetric(result);
   result.rest = rest_pose(model, result.rig.joints);
   execution.begin_stage("weights", 0.8, 1);
-  const RowMatrixf weights =
-      smoothed(mapped_weights(model, analysis, maps, weight, execution), analysis.operators.L);
-  const auto places = coarse_place_of_vertices(analysis.proxy);
-  std::vector<VertexInfluences> on_surface;
-  for (const SurfacePoint& place : places) {
-    Eigen::RowVectorXf mixed = Eigen::RowVectorXf::Zero(weights.cols());
-    for (int c = 0; c < 3; ++c)
-      mixed += static_cast<float>(place.barycentric[c]) *
-               weights.row(analysis.surface().triangles(place.triangle, c));
-    on_surface.push_back(influences_of(mixed));
-  }
-  for (const int32_t v : full.surface_vertex)
-    result.rig.influences.push_back(v >= 0 ? on_surface[v] : VertexInfluences{});
+  result.rig.influences = influences_on_source(
+      smoothed(mapped_weights(model, analysis, maps, weight, execution), analysis.operators.L), analysis);
   execution.begin_stage("done", 1, 1);
   return result;
 }

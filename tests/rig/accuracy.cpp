@@ -81,7 +81,7 @@ struct Errors {
 };
 
 // Undoes the true rotations with the skeleton and weights that were found: how far from the rest pose the vertices end.
-double reposing_error(const TransferredRig& found, const Truth& truth, const MatrixX3& positions) {
+double reposing_error(const CharacterRig& found, const Truth& truth, const MatrixX3& positions) {
   const auto& joints = found.rig.joints;
   std::vector<Matrix4> back(joints.size(), Matrix4::Identity());
   std::vector<Vector3> to(joints.size());
@@ -101,7 +101,7 @@ double reposing_error(const TransferredRig& found, const Truth& truth, const Mat
   return (moved - truth.rest_positions).rowwise().norm().mean();
 }
 
-double weight_difference(const TransferredRig& found, const Truth& truth) {
+double weight_difference(const CharacterRig& found, const Truth& truth) {
   double sum = 0;
   for (size_t v = 0; v < found.rig.influences.size(); ++v) {
     std::map<std::string, double> difference;
@@ -155,7 +155,7 @@ std::vector<int32_t> named_by_truth(const std::vector<int32_t>& cluster, const s
   return result;
 }
 
-void judge_parts(const Detection& detection, const TransferredRig& found, const Truth& truth,
+void judge_parts(const Detection& detection, const CharacterRig& found, const Truth& truth,
                  Errors& errors) {
   const PreparedMesh& mesh = *detection.mesh;
   std::vector<double> area;
@@ -191,7 +191,7 @@ Errors judge(const std::shared_ptr<const LandmarkModel>& model, const Path& set,
   const auto mesh = std::make_shared<const PreparedMesh>(prepare(read_gltf(set / (name + ".glb")).mesh));
   Stopwatch watch;
   const Detection detection = detect(model, mesh, DetectParams{}, execution);
-  const TransferredRig found = transfer_rig(detection, execution);
+  const CharacterRig found = transfer_rig(detection, execution);
   Errors errors;
   errors.seconds = watch.lap();
   errors.height = truth.rest_positions.col(1).maxCoeff() - truth.rest_positions.col(1).minCoeff();

@@ -49,7 +49,7 @@ TEST_CASE("another humanoid in another pose gets its skeleton and weights") {
     const creatures::Character other = humanoid(seed);
     const auto mesh = mesh_of(other.posed, other);
     const Detection detection = detect(rig_model(), mesh, {}, execution);
-    const TransferredRig found = transfer_rig(detection, execution);
+    const CharacterRig found = transfer_rig(detection, execution);
     REQUIRE(found.rig.joints.size() == other.skeleton.joints.size());
     double error = 0;
     for (const Joint& joint : found.rig.joints)

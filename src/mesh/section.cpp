@@ -1,0 +1,104 @@
+#include "mesh/section.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace focal {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+// The largest ball inside that touches the surface at a point: J. Ma, S. W. Bae, S. Choi, "3D medial axis point approximation
+// using nearest neighbors and the normal field", 2012. Vertices seen from its centre within 40 degrees of the point count as
+// the point's own surroundings, which noise would let shrink the ball. Returns its radius.
+double inscribed_radius(const TriangleMesh& mesh, const Vector3& point, const Vector3& inward,
+                        double radius) {
+  const double own_surroundings = std::cos(40 * pi / 180);
+  for (int round = 0; round < 30; ++round) {
+    const Vector3 centre = point + radius * inward;
+    double smallest = radius;
+    for (Eigen::Index v = 0; v < mesh.positions.rows(); ++v) {
+      const Vector3 other = mesh.positions.row(v).transpose();
+      if ((other - centre).squaredNorm() >= radius * radius) continue;
+      const Vector3 away = other - point;
+      const double through =
+          away.squaredNorm() / (2 * away.dot(inward));  // radius of the ball that touches both
+      if (!(through < smallest)) continue;
+      const Vector3 middle = point + through * inward;
+      if ((other - middle).dot(point - middle) < own_surroundings * through * through) smallest = through;
+    }
+    if (smallest > radius * (1 - 1e-6)) break;
+    radius = smallest;
+  }
+  return radius;
+}
+
+// Even directions all round (a Fibonacci lattice).
+Vector3 direction_of(int index, int count) {
+  const double z = 1 - (2 * index + 1.0) / count, turn = index * pi * (3 - std::sqrt(5.0)),
+               r = std::sqrt(1 - z * z);
+  return {r * std::cos(turn), r * std::sin(turn), z};
+}
+
+// The way the body is longest round a point inside.
+Vector3 long_axis(const RayCaster& surface, const Vector3& centre, double most) {
+  constexpr int count = 128;
+  Matrix3 moment = Matrix3::Zero();
+  for (int i = 0; i < count; ++i) {
+    const Vector3 direction = direction_of(i, count);
+    const double reach = surface.first_hit(centre, direction, most).distance;
+    moment += reach * reach * direction * direction.transpose();
+  }
+  return Eigen::SelfAdjointEigenSolver<Matrix3>(moment).eigenvectors().col(2);
+}
+
+// Of the part of the plane through a point that is seen from it inside the body.
+Vector3 centroid_across(const RayCaster& surface, const Vector3& centre, const Vector3& axis, double most) {
+  constexpr int count = 32;
+  const Vector3 u = axis.unitOrthogonal(), v = axis.cross(u);
+  Vector3 sum = Vector3::Zero();
+  double area = 0;
+  Vector3 corner[count];
+  for (int i = 0; i < count; ++i) {
+    const double angle = 2 * pi * i / count;
+    const Vector3 direction = std::cos(angle) * u + std::sin(angle) * v;
+    corner[i] = surface.first_hit(centre, direction, most).distance * direction;
+  }
+  for (int i = 0; i < count; ++i) {
+    const Vector3 &a = corner[i], &b = corner[(i + 1) % count];
+    const double twice = axis.dot(a.cross(b));
+    sum += twice * (a + b) / 3, area += twice;
+  }
+  return area > 0 ? Vector3(centre + sum / area) : centre;
+}
+
+}  // namespace
+
+double winding_number(const TriangleMesh& mesh, const Vector3& point) {
+  double solid_angle = 0;  // A. van Oosterom, J. Strackee, "The Solid Angle of a Plane Triangle", 1983
+  for (int32_t t = 0; t < mesh.triangle_count(); ++t) {
+    Vector3 at[3];
+    for (int i = 0; i < 3; ++i) at[i] = mesh.positions.row(mesh.triangles(t, i)).transpose() - point;
+    const double a = at[0].norm(), b = at[1].norm(), c = at[2].norm();
+    solid_angle +=
+        2 * std::atan2(at[0].dot(at[1].cross(at[2])),
+                       a * b * c + at[0].dot(at[1]) * c + at[1].dot(at[2]) * a + at[2].dot(at[0]) * b);
+  }
+  return solid_angle / (4 * pi);
+}
+
+Vector3 section_centre(const RayCaster& surface, const Vector3& point, const Vector3& outward) {
+  const Vector3 inward = -outward;
+  const MatrixX3& positions = surface.mesh().positions;
+  const double size = (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).norm();
+  const double radius = inscribed_radius(surface.mesh(), point, inward, size / 2);
+  const double longest = 6 * radius, widest = 3 * radius;  // farther is another part, or out through a hole
+  Vector3 centre = point + radius * inward;
+  for (int round = 0; round < 3; ++round)
+    centre = centroid_across(surface, centre, long_axis(surface, centre, longest), widest);
+  return centre;
+}
+
+}  // namespace focal

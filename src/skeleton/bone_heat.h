@@ -1,0 +1,22 @@
+// Skin weights from bones alone, for skeletons that no rigged character has taught.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "landmarks/surface_analysis.h"
+#include "mesh/ray_caster.h"
+
+namespace focal {
+
+struct Bone {
+  int32_t joint = 0;  // that it moves with
+  Vector3 from, to;   // in the coordinates of the analysed surface
+};
+
+// vertices of the analysed surface x joints, each row of sum 1: heat of the nearest bone that a vertex sees inside the body,
+// spread along the surface, so that limbs that touch do not share it. I. Baran, J. Popović, "Automatic Rigging and Animation
+// of 3D Characters", 2007. Throws invalid_argument without bones.
+RowMatrixf bone_heat_weights(const SurfaceAnalysis& analysis, const RayCaster& rays,
+                             const std::vector<Bone>& bones, int32_t joint_count, const Execution& execution);
+
+}  // namespace focal

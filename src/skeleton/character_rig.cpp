@@ -1,0 +1,76 @@
+#include "skeleton/character_rig.h"
+
+#include <algorithm>
+
+#include "skeleton/bone_names.h"
+
+namespace focal {
+namespace {
+
+constexpr float least_weight = 0.02f;  // lighter influences are dropped
+
+VertexInfluences influences_of(const Eigen::Ref<const Eigen::RowVectorXf>& weights) {
+  std::vector<Influence> influences;
+  const float total = weights.sum();
+  for (Eigen::Index j = 0; j < weights.size(); ++j)
+    if (weights[j] > least_weight * total) influences.push_back({static_cast<int32_t>(j), weights[j]});
+  return heaviest(influences);
+}
+
+// The joint on the other side, -1: none.
+std::vector<int32_t> other_sides(const std::vector<Joint>& joints) {
+  std::vector<int32_t> result;
+  for (const Joint& joint : joints) {
+    const auto name = mirrored_name(joint.name);
+    const auto other = std::find_if(joints.begin(), joints.end(),
+                                    [&](const Joint& one) { return name && one.name == *name; });
+    result.push_back(other == joints.end() ? -1 : static_cast<int32_t>(other - joints.begin()));
+  }
+  return result;
+}
+
+}  // namespace
+
+ToCaller::ToCaller(const SurfaceAnalysis& analysis) {
+  const PreparedMesh& full = *analysis.proxy.full;
+  scale = full.scale, offset = full.centre;
+  if (analysis.proxy.is_full()) return;
+  offset += scale * analysis.proxy.coarse->centre;
+  scale *= analysis.proxy.coarse->scale;
+}
+
+std::vector<VertexInfluences> influences_on_source(const RowMatrixf& weights,
+                                                   const SurfaceAnalysis& analysis) {
+  std::vector<VertexInfluences> on_surface;
+  for (const SurfacePoint& place : coarse_place_of_vertices(analysis.proxy)) {
+    Eigen::RowVectorXf mixed = Eigen::RowVectorXf::Zero(weights.cols());
+    for (int c = 0; c < 3; ++c)
+      mixed += static_cast<float>(place.barycentric[c]) *
+               weights.row(analysis.surface().triangles(place.triangle, c));
+    on_surface.push_back(influences_of(mixed));
+  }
+  std::vector<VertexInfluences> result;
+  for (const int32_t v : analysis.proxy.full->surface_vertex)
+    result.push_back(v >= 0 ? on_surface[v] : VertexInfluences{});
+  return result;
+}
+
+void make_bones_symmetric(CharacterRig& character) {
+  auto& joints = character.rig.joints;
+  const std::vector<int32_t> other = other_sides(joints);
+  const auto place = [&](size_t j) -> Vector3 { return joints[j].bind.topRightCorner<3, 1>(); };
+  std::vector<double> length(joints.size(), 0);  // as found
+  for (size_t j = 0; j < joints.size(); ++j)
+    if (joints[j].parent >= 0) length[j] = (place(j) - place(static_cast<size_t>(joints[j].parent))).norm();
+  for (size_t j = 0; j < joints.size(); ++j) {
+    if (other[j] < 0 || joints[j].parent < 0) continue;
+    const auto pair = static_cast<size_t>(other[j]);
+    const double mine = character.confidence[j] + 1e-3, theirs = character.confidence[pair] + 1e-3;
+    const double agreed = (mine * length[j] + theirs * length[pair]) / (mine + theirs);
+    const Vector3 parent = place(static_cast<size_t>(joints[j].parent));
+    const Vector3 way = (place(j) - parent).stableNormalized();
+    joints[j].bind.topRightCorner<3, 1>() = parent + agreed * way;
+  }
+}
+
+}  // namespace focal

@@ -1,0 +1,38 @@
+// A skeleton and skin weights for one detected mesh: what the ways of making them have in common.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "landmarks/detect.h"
+#include "mesh/rig.h"
+
+namespace focal {
+
+struct CharacterRig {
+  Rig rig;                   // in the coordinates of mesh->source; influences a source vertex
+  std::vector<Vector3> tip;  // per joint the far end of its part, in the same coordinates
+  // Where each joint goes when the character takes the rest pose of those it was learned from: turned as theirs are, with bones
+  // of its own length, its roots where they are. Empty: none is known.
+  std::vector<Matrix4> rest;
+  std::vector<double> confidence;  // per joint 0..1
+  std::vector<std::string> warnings;
+};
+
+// From the coordinates of the analysed surface to those of the caller's mesh.
+struct ToCaller {
+  explicit ToCaller(const SurfaceAnalysis& analysis);
+  Vector3 operator()(const Vector3& p) const { return offset + scale * p; }
+
+  double scale = 1;
+  Vector3 offset = Vector3::Zero();
+};
+
+// From weights at the vertices of the analysed surface (vertices x joints, >= 0) to the heaviest of each source vertex.
+std::vector<VertexInfluences> influences_on_source(const RowMatrixf& weights,
+                                                   const SurfaceAnalysis& analysis);
+
+// Both sides get bones of the same length, each joint moved along its bone; pairs are told by their names (see mirrored_name).
+// Of a pair the side that is known better counts more. The limbs keep their pose.
+void make_bones_symmetric(CharacterRig& character);
+
+}  // namespace focal

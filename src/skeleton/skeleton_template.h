@@ -1,0 +1,32 @@
+// A skeleton written by hand over landmarks that were marked by hand: where each joint lies follows from them.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "skeleton/character_rig.h"
+
+namespace focal {
+
+struct TemplateJoint {
+  std::string name, parent;  // parent: the name of one before it; empty: a root
+  // One of these says where it lies: the mean over landmarks of the centres of the cross-sections under them; the mean of the
+  // landmarks themselves; or on the line between two joints or landmarks.
+  std::vector<std::string> centre, surface, between;
+  double share = 0.5;           // of the way from the first to the second of `between`, 0..1
+  std::string tip;              // the landmark where it ends; empty: the far end of the part that it moves
+  std::optional<Vector3> rest;  // the way its bone points in the rest pose, in the mesh's coordinates
+};
+
+struct SkeletonTemplate {
+  std::vector<TemplateJoint> joints;
+  bool symmetric = false;  // see make_bones_symmetric
+};
+
+// Joints lie inside the body; those whose landmarks are all absent at their parents, with a warning. Weights are those of bone
+// heat. A joint's y axis points along its bone. Throws invalid_argument (a name that is empty, given twice or not known, none or
+// several of the three places, places that follow from each other in a circle; a detection without an analysis).
+CharacterRig rig_by_template(const SkeletonTemplate& skeleton, const Detection& detection,
+                             const Execution& execution);
+
+}  // namespace focal
