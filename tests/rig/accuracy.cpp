@@ -155,8 +155,7 @@ std::vector<int32_t> named_by_truth(const std::vector<int32_t>& cluster, const s
   return result;
 }
 
-void judge_parts(const Detection& detection, const CharacterRig& found, const Truth& truth,
-                 Errors& errors) {
+void judge_parts(const Detection& detection, const CharacterRig& found, const Truth& truth, Errors& errors) {
   const PreparedMesh& mesh = *detection.mesh;
   std::vector<double> area;
   for (int32_t t = 0; t < mesh.source.triangle_count(); ++t) {
