@@ -3,22 +3,26 @@
  * Rules that hold for every function below
  *
  *   Errors     Fallible functions return focal_status. The out_ argument comes last and is written only on
- * FOCAL_OK. After a failure focal_last_error() says what went wrong, names the object and ends with a hint;
- *              it is per thread. Getters that return a value or a pointer return 0 or NULL for a bad handle
- * or index, and set focal_last_error() too. Ownership  focal_X_create/load/train/detect give one handle,
- * focal_X_destroy takes it back (NULL is fine). Handles may be destroyed in any order: a result keeps what it
- * needs. A stale, foreign or twice destroyed handle is answered with FOCAL_ERROR_INVALID_HANDLE, never with a
- * crash. A handle is an opaque tag, not an address. No *_destroy touches focal_last_error(). Lifetime
- * Returned pointers are borrowed from the handle and live as long as it does. What is passed in is copied
- * before the call returns. Threads    Handles are immutable once made, so any number of threads may use one
- * at once. Exceptions: focal_training_set [builder: one thread at a time] and focal_task [any thread, at any
- * time]. No thread of focal is alive between calls. Strings    UTF-8, NUL-terminated, paths included, on
- * every platform. Versions   Structs begin with struct_size. Parameters: fill them with *_init(&params,
- * sizeof params), then change fields; NULL stands for the defaults. A non-zero tail that this library does
- * not know is FOCAL_ERROR_UNSUPPORTED. Results: call *_init the same way, then the getter fills what fits.
- *              Reserved fields stay 0.
+ *              FOCAL_OK. After a failure focal_last_error() says what went wrong, names the object and ends
+ *              with a hint; it is per thread. Getters that return a value or a pointer return 0 or NULL for
+ *              a bad handle or index, and set focal_last_error() too.
+ *   Ownership  focal_X_create/load/train/detect give one handle, focal_X_destroy takes it back (NULL is
+ *              fine). Handles may be destroyed in any order: a result keeps what it needs. A stale, foreign
+ *              or twice destroyed handle is answered with FOCAL_ERROR_INVALID_HANDLE, never with a crash.
+ *              A handle is an opaque tag, not an address. No *_destroy touches focal_last_error().
+ *   Lifetime   Returned pointers are borrowed from the handle and live as long as it does. What is passed
+ *              in is copied before the call returns.
+ *   Threads    Handles are immutable once made, so any number of threads may use one at once. Exceptions:
+ *              focal_training_set [builder: one thread at a time] and focal_task [any thread, at any time].
+ *              No thread of focal is alive between calls.
+ *   Strings    UTF-8, NUL-terminated, paths included, on every platform.
+ *   Versions   Structs begin with struct_size. Parameters: fill them with *_init(&params, sizeof params),
+ *              then change fields; NULL stands for the defaults. A non-zero tail that this library does not
+ *              know is FOCAL_ERROR_UNSUPPORTED. Results: call *_init the same way, then the getter fills
+ *              what fits. Reserved fields stay 0.
  *   Units      Positions, lengths and areas are in the units of the caller's mesh. Vertex and triangle
- * numbers are those of the caller's mesh, 0-based. Flags are int32_t, 0 or 1. Probabilities lie in 0..1.
+ *              numbers are those of the caller's mesh, 0-based. Flags are int32_t, 0 or 1. Probabilities
+ *              lie in 0..1.
  *   Never      Signal handlers, prints, exit, exceptions across this border, use of the locale. The caller's
  *              floating-point environment is saved and restored. Files are written whole or not at all.
  */
@@ -188,8 +192,9 @@ typedef struct focal_mesh_params {
   uint64_t max_nodes;           /* 1 or more. Default 1,000,000 */
   uint64_t max_json_bytes;      /* 1 or more. Default 64 MiB */
   uint64_t max_file_bytes;      /* 1 or more, also for each external file. Default 2 GiB */
-  /* Name of an animation of the file: skinned meshes come in the pose that it gives them at pose_time (seconds, 0 or more; past its
-   * end as at its end) instead of the bind pose. Such a mesh keeps no file: results are written as a plain .glb. NULL: none. */
+  /* Name of an animation of the file: skinned meshes come in the pose that it gives them at pose_time
+     (seconds, 0 or more; past its end as at its end) instead of the bind pose. Such a mesh keeps no file:
+     results are written as a plain .glb. NULL: none. */
   const char* pose_animation;
   double pose_time;
 } focal_mesh_params;
@@ -271,10 +276,11 @@ FOCAL_API focal_status focal_training_set_add(focal_training_set* set, const foc
 FOCAL_API focal_status focal_training_set_add_vertices(focal_training_set* set, const focal_mesh* mesh,
                                                        const uint32_t* vertices, uint64_t landmark_count);
 
-/* Adds a rigged character, loaded with focal_mesh_load_gltf, to a set made without landmark names. Landmarks are placed by its
- * skeleton: no point has to be marked. One character is enough: it is learned in other poses and proportions too. Several
- * should share one skeleton: joints are matched by name, and those of at least half of the characters are learned.
- * Errors: INVALID_ARGUMENT (a set with landmark names; no file kept; no skin; no vertex that a joint moves), INVALID_FILE. */
+/* Adds a rigged character, loaded with focal_mesh_load_gltf, to a set made without landmark names.
+ * Landmarks are placed by its skeleton: no point has to be marked. One character is enough: it is learned
+ * in other poses and proportions too. Several should share one skeleton: joints are matched by name, and
+ * those of at least half of the characters are learned. Errors: INVALID_ARGUMENT (a set with landmark
+ * names; no file kept; no skin; no vertex that a joint moves), INVALID_FILE. */
 FOCAL_API focal_status focal_training_set_add_rig(focal_training_set* set, const focal_mesh* mesh);
 
 FOCAL_API uint64_t focal_training_set_landmark_count(const focal_training_set* set);
@@ -291,23 +297,23 @@ enum {
 typedef struct focal_train_params {
   uint32_t struct_size;
   focal_preset preset; /* which method; kept in the model, detection follows it */
-  int32_t
-      eigenpair_count; /* of the Laplacian, 8..2000; fewer on tiny meshes. Default 128; preset paper: 200 */
+  /* Eigenpairs of the Laplacian, 8..2000; fewer on tiny meshes. Default 128; preset paper: 200 */
+  int32_t eigenpair_count;
   int32_t tree_count;  /* a forest, 1..10000. Default 30 */
   int32_t min_leaf_samples;      /* 1 or more. Default 5 */
   int32_t components_per_split;  /* random descriptor components tried at each split, 1 or more. Default 5 */
   double sampling_rate;          /* of the vertices analysed of each training mesh, above 0 to 1. Default 1 */
   int32_t max_samples_per_shape; /* 1 or more. Default 6250 */
-  int32_t
-      proxy_vertices; /* meshes with more vertices are analysed on a decimated copy of about so many, here and
-                             in detection; 0: as they are. Default 3500; preset paper: 0 */
+  /* Meshes with more vertices are analysed on a decimated copy of about so many, here and in detection;
+     0: as they are. Default 3500; preset paper: 0 */
+  int32_t proxy_vertices;
   uint64_t seed;      /* same seed, same bits. Default 0 */
-  int32_t
-      learn_confidence; /* by leaving shapes out in turn, about two thirds of the time. Default 1; without it every
-                               confidence is about a half, and nothing is told absent. Preset paper has none */
-  int32_t
-      rigged_shapes; /* learned of rigged characters in all, copies in other poses included; at least half as many
-                               again as there are characters. Default 16 */
+  /* By leaving shapes out in turn, about two thirds of the time. Default 1; without it every confidence is
+     about a half, and nothing is told absent. Preset paper has none */
+  int32_t learn_confidence;
+  /* Shapes learned of rigged characters in all, copies in other poses included; at least half as many again
+     as there are characters. Default 16 */
+  int32_t rigged_shapes;
 } focal_train_params;
 
 /* init fills the default preset; set_preset refills every field with the values of one preset. */
@@ -373,8 +379,9 @@ typedef struct focal_detect_params {
 FOCAL_API focal_status focal_detect_params_init(focal_detect_params* params, size_t struct_size);
 
 /* Finds the model's landmarks on a mesh. params and task may be NULL; runs in the model's context. Errors:
- * CANCELLED, NOT_CONVERGED. The detection keeps mesh and model alive, and a few MB that skeletons and maps start from. Holes with a border of up to 1.5 sqrt(area) are
- * closed for the analysis (preset default only; a warning tells how many); landmarks still lie on the caller's triangles. */
+ * CANCELLED, NOT_CONVERGED. The detection keeps mesh and model alive, and a few MB that skeletons and maps
+ * start from. Holes with a border of up to 1.5 sqrt(area) are closed for the analysis (preset default
+ * only; a warning tells how many); landmarks still lie on the caller's triangles. */
 FOCAL_API focal_status focal_model_detect(const focal_model* model, const focal_mesh* mesh,
                                           const focal_detect_params* params, focal_task* task,
                                           focal_detection** out_detection);
@@ -382,22 +389,23 @@ FOCAL_API focal_status focal_detection_destroy(focal_detection* detection);
 
 /* ---- Analysis: one mesh, many models ---- */
 
-/* Analyses the mesh as this model needs it; nearly all the work of a detection. The result serves every model with the
- * same eigenpair_count, proxy_vertices and preset, so all of the default preset. params may be NULL; of them count
- * quality, sampling_rate, max_samples and seed. Errors: CANCELLED, NOT_CONVERGED. It keeps the mesh alive. */
+/* Analyses the mesh as this model needs it; nearly all the work of a detection. The result serves every
+ * model with the same eigenpair_count, proxy_vertices and preset, so all of the default preset. params may
+ * be NULL; of them count quality, sampling_rate, max_samples and seed. Errors: CANCELLED, NOT_CONVERGED.
+ * It keeps the mesh alive. */
 FOCAL_API focal_status focal_model_analyse(const focal_model* model, const focal_mesh* mesh,
                                            const focal_detect_params* params, focal_task* task,
                                            focal_analysis** out_analysis);
 FOCAL_API focal_status focal_analysis_destroy(focal_analysis* analysis);
 
-/* Like focal_model_detect, on an analysed mesh: tens of milliseconds. INVALID_ARGUMENT when the analysis was made with
- * other parameters than the model's. */
+/* Like focal_model_detect, on an analysed mesh: tens of milliseconds. INVALID_ARGUMENT when the analysis
+ * was made with other parameters than the model's. */
 FOCAL_API focal_status focal_model_detect_analysis(const focal_model* model, const focal_analysis* analysis,
                                                    const focal_detect_params* params, focal_task* task,
                                                    focal_detection** out_detection);
 
-/* An analysis in a file, a few MB, and back for the same mesh. Errors: IO, FILE_NOT_FOUND, INVALID_FILE (damaged, or of
- * another mesh), UNSUPPORTED_VERSION. It contains geometry of the mesh. */
+/* An analysis in a file, a few MB, and back for the same mesh. Errors: IO, FILE_NOT_FOUND, INVALID_FILE
+ * (damaged, or of another mesh), UNSUPPORTED_VERSION. It contains geometry of the mesh. */
 FOCAL_API focal_status focal_analysis_save(const focal_analysis* analysis, const char* path);
 FOCAL_API focal_status focal_analysis_load(const focal_context* context, const focal_mesh* mesh,
                                            const char* path, focal_analysis** out_analysis);
@@ -474,16 +482,18 @@ FOCAL_API const char* focal_detection_warning(const focal_detection* detection, 
 FOCAL_API focal_status focal_detection_votes(const focal_detection* detection, uint32_t index,
                                              uint64_t vertex_count, float* out_votes);
 
-/* Geodesic distances along the surface from one landmark's place, absent or not, to each of the caller's vertices, in the
- * mesh's units: INFINITY where no triangle uses the vertex or no way leads there. The first call takes about 50 ms, each
- * further one 10 ms. vertex_count must be the mesh's. INVALID_LANDMARK when the landmark has no place at all. */
+/* Geodesic distances along the surface from one landmark's place, absent or not, to each of the caller's
+ * vertices, in the mesh's units: INFINITY where no triangle uses the vertex or no way leads there. The
+ * first call takes about 50 ms, each further one 10 ms. vertex_count must be the mesh's. INVALID_LANDMARK
+ * when the landmark has no place at all. */
 FOCAL_API focal_status focal_detection_distances(const focal_detection* detection, uint32_t index,
                                                  uint64_t vertex_count, float* out_distances);
 
-/* The region within `radius` of one landmark, as a value for each of the caller's vertices: 1 inside, 0 outside, in between
- * within half a mean edge of its border. radius is a share of sqrt(focal_mesh_info.surface_area), so one number means the
- * same region on every mesh of a category, whatever its size: a radius r in the units of a mesh is r / sqrt(surface_area).
- * Errors as above; INVALID_ARGUMENT for a radius below 0. */
+/* The region within `radius` of one landmark, as a value for each of the caller's vertices: 1 inside, 0
+ * outside, in between within half a mean edge of its border. radius is a share of
+ * sqrt(focal_mesh_info.surface_area), so one number means the same region on every mesh of a category,
+ * whatever its size: a radius r in the units of a mesh is r / sqrt(surface_area). Errors as above;
+ * INVALID_ARGUMENT for a radius below 0. */
 FOCAL_API focal_status focal_detection_region(const focal_detection* detection, uint32_t index, double radius,
                                               uint64_t vertex_count, float* out_membership);
 
@@ -500,21 +510,22 @@ FOCAL_API focal_status focal_detection_write_votes_gltf(const focal_detection* d
 
 /* ---- Correspondence ---- */
 
-/* A point of the target for every vertex of the source, both detected with the same model (preset default); about a second.
- * Landmarks correspond by their number. task may be NULL. Errors: INVALID_ARGUMENT (different models; fewer than three
- * landmarks found on both), CANCELLED. It keeps both meshes alive. */
+/* A point of the target for every vertex of the source, both detected with the same model (preset
+ * default); about a second. Landmarks correspond by their number. task may be NULL. Errors:
+ * INVALID_ARGUMENT (different models; fewer than three landmarks found on both), CANCELLED. It keeps both
+ * meshes alive. */
 FOCAL_API focal_status focal_correspondence_create(const focal_detection* source,
                                                    const focal_detection* target, focal_task* task,
                                                    focal_correspondence** out_correspondence);
 FOCAL_API focal_status focal_correspondence_destroy(focal_correspondence* correspondence);
 
-/* Points of the target, one for each vertex of the source (FOCAL_NO_TRIANGLE where no triangle uses the vertex).
- * vertex_count must be the source's. */
+/* Points of the target, one for each vertex of the source (FOCAL_NO_TRIANGLE where no triangle uses the
+ * vertex). vertex_count must be the source's. */
 FOCAL_API focal_status focal_correspondence_points(const focal_correspondence* correspondence,
                                                    uint64_t vertex_count, focal_surface_point* out_points);
 
-/* Carries a value for each vertex of the target (a region, a weight, a colour channel) over to the source; 0 where no triangle
- * uses a vertex. The counts must be those of the meshes. */
+/* Carries a value for each vertex of the target (a region, a weight, a colour channel) over to the source;
+ * 0 where no triangle uses a vertex. The counts must be those of the meshes. */
 FOCAL_API focal_status focal_correspondence_carry(const focal_correspondence* correspondence,
                                                   uint64_t target_vertex_count, const float* target_values,
                                                   uint64_t vertex_count, float* out_values);
@@ -531,8 +542,8 @@ enum {
       3 /* the joint that moves it most; labels are joint numbers (focal_model_joint_name) */
 };
 
-/* A label for each of the caller's triangles, -1 where there is none. task may be NULL. triangle_count must be the mesh's.
- * Errors: INVALID_ARGUMENT (SKELETON with a model that has none), CANCELLED. */
+/* A label for each of the caller's triangles, -1 where there is none. task may be NULL. triangle_count
+ * must be the mesh's. Errors: INVALID_ARGUMENT (SKELETON with a model that has none), CANCELLED. */
 FOCAL_API focal_status focal_detection_segment(const focal_detection* detection, focal_segmentation method,
                                                focal_task* task, uint64_t triangle_count,
                                                int32_t* out_labels);
@@ -555,35 +566,39 @@ enum {
 
 typedef struct focal_skeleton_params {
   uint32_t struct_size;
-  focal_bone_names
-      names; /* default AS_TRAINED. Bones that the convention does not know keep their names, with a warning */
-  /* Names of your own, one for each joint in the model's order (see focal_model_joint_name); NULL, or NULL for one of them:
-   * as above. joint_name_count: the model's joint_count, or 0. */
+  /* Default AS_TRAINED. Bones that the convention does not know keep their names, with a warning */
+  focal_bone_names names;
+  /* Names of your own, one for each joint in the model's order (see focal_model_joint_name); NULL, or NULL
+     for one of them: as above. joint_name_count: the model's joint_count, or 0. */
   const char* const* joint_names;
   uint64_t joint_name_count;
-  /* A rigged character, loaded with focal_mesh_load_gltf, whose animations focal_skeleton_write_gltf puts in; NULL: none. Its
-   * joints should be named as those of the characters that taught the model. */
+  /* A rigged character, loaded with focal_mesh_load_gltf, whose animations focal_skeleton_write_gltf puts
+     in; NULL: none. Its joints should be named as those of the characters that taught the model. */
   const focal_mesh* animations;
-  /* 1: the file shows the character in the rest pose of the first character that taught the model (its T or A pose), moved there by
-   * its new joints; its vertices stay as they were. Default 0: in the pose of the mesh. */
+  /* 1: the file shows the character in the rest pose of the first character that taught the model (its T
+     or A pose), moved there by its new joints; its vertices stay as they were. Default 0: in the pose of
+     the mesh. */
   int32_t rest_pose;
-  /* 1: bones of the left and right side, told by their names, get the same length. Default 0. A template may ask for it too. */
+  /* 1: bones of the left and right side, told by their names, get the same length. Default 0. A template
+     may ask for it too. */
   int32_t symmetric;
-  /* A skeleton of your own over the model's landmarks, as JSON text (docs/rigs.md describes it); weights then follow from its bones
-   * by heat. NULL: the skeleton of the characters that taught the model. With a template, animations is not allowed, and rest_pose
-   * only when the template gives one. */
+  /* A skeleton of your own over the model's landmarks, as JSON text (docs/rigs.md describes it); weights
+     then follow from its bones by heat. NULL: the skeleton of the characters that taught the model. With a
+     template, animations is not allowed, and rest_pose only when the template gives one. */
   const char* skeleton_template;
 } focal_skeleton_params;
 
 FOCAL_API focal_status focal_skeleton_params_init(focal_skeleton_params* params, size_t struct_size);
 
-/* The skeleton that a model of rigged characters has learned: number of joints (0: none) and their names, parents first. */
+/* The skeleton that a model of rigged characters has learned: number of joints (0: none) and their names,
+ * parents first. */
 FOCAL_API uint32_t focal_model_joint_count(const focal_model* model);
 FOCAL_API const char* focal_model_joint_name(const focal_model* model, uint32_t index);
 
-/* Joints and skin weights for the mesh of a detection, in the pose that it has; about a second. params and task may be NULL.
- * Errors: INVALID_ARGUMENT (no template, and the model was not learned from rigged characters; fewer than three landmarks found; a
- * template that names what is not there), INVALID_FILE (the template is no JSON), CANCELLED. It keeps the detection alive. */
+/* Joints and skin weights for the mesh of a detection, in the pose that it has; about a second. params and
+ * task may be NULL. Errors: INVALID_ARGUMENT (no template, and the model was not learned from rigged
+ * characters; fewer than three landmarks found; a template that names what is not there), INVALID_FILE
+ * (the template is no JSON), CANCELLED. It keeps the detection alive. */
 FOCAL_API focal_status focal_skeleton_create(const focal_detection* detection,
                                              const focal_skeleton_params* params, focal_task* task,
                                              focal_skeleton** out_skeleton);
@@ -607,8 +622,8 @@ typedef struct focal_joint {
   const char* name;  /* lives as long as the skeleton */
   double confidence; /* 0..1: how well the training characters agree on its place */
   float position[3];
-  float rotation
-      [4]; /* quaternion x, y, z, w: from the joint's own axes, those of the training characters, to the mesh's */
+  /* Quaternion x, y, z, w: from the joint's own axes, those of the training characters, to the mesh's */
+  float rotation[4];
   float tip[3]; /* the far end of its part of the surface */
 } focal_joint;
 
@@ -616,15 +631,16 @@ FOCAL_API focal_status focal_joint_init(focal_joint* joint, size_t struct_size);
 FOCAL_API focal_status focal_skeleton_get_joint(const focal_skeleton* skeleton, uint32_t index,
                                                 focal_joint* out_joint);
 
-/* Four influences for each of the caller's vertices, heaviest first: joint numbers and weights, vertex_count x 4. Weights sum to
- * 1; all 0 where no triangle uses the vertex. vertex_count must be the mesh's. */
+/* Four influences for each of the caller's vertices, heaviest first: joint numbers and weights,
+ * vertex_count x 4. Weights sum to 1; all 0 where no triangle uses the vertex. vertex_count must be the
+ * mesh's. */
 FOCAL_API focal_status focal_skeleton_weights(const focal_skeleton* skeleton, uint64_t vertex_count,
                                               uint32_t* out_joints, float* out_weights);
 
 FOCAL_API const char* focal_skeleton_warning(const focal_skeleton* skeleton, uint32_t index);
 
-/* Writes the caller's own glTF, nothing lost, with the skeleton, a skin for every mesh it shows, and the landmarks as
- * focal_detection_write_gltf does. Same rules for the path, same errors. */
+/* Writes the caller's own glTF, nothing lost, with the skeleton, a skin for every mesh it shows, and the
+ * landmarks as focal_detection_write_gltf does. Same rules for the path, same errors. */
 FOCAL_API focal_status focal_skeleton_write_gltf(const focal_skeleton* skeleton, const char* path);
 
 #ifdef __cplusplus
