@@ -299,7 +299,7 @@ typedef struct focal_train_params {
   focal_preset preset; /* which method; kept in the model, detection follows it */
   /* Eigenpairs of the Laplacian, 8..2000; fewer on tiny meshes. Default 128; preset paper: 200 */
   int32_t eigenpair_count;
-  int32_t tree_count;  /* a forest, 1..10000. Default 30 */
+  int32_t tree_count;            /* a forest, 1..10000. Default 30 */
   int32_t min_leaf_samples;      /* 1 or more. Default 5 */
   int32_t components_per_split;  /* random descriptor components tried at each split, 1 or more. Default 5 */
   double sampling_rate;          /* of the vertices analysed of each training mesh, above 0 to 1. Default 1 */
@@ -307,7 +307,7 @@ typedef struct focal_train_params {
   /* Meshes with more vertices are analysed on a decimated copy of about so many, here and in detection;
      0: as they are. Default 3500; preset paper: 0 */
   int32_t proxy_vertices;
-  uint64_t seed;      /* same seed, same bits. Default 0 */
+  uint64_t seed; /* same seed, same bits. Default 0 */
   /* By leaving shapes out in turn, about two thirds of the time. Default 1; without it every confidence is
      about a half, and nothing is told absent. Preset paper has none */
   int32_t learn_confidence;
