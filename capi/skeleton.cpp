@@ -229,9 +229,11 @@ focal_status focal_skeleton_write_gltf(const focal_skeleton* skeleton, const cha
     const auto object = resolve<SkeletonObject>(skeleton);
     const auto file = path_of(path);
     SourceFile source = source_file(*object->detection->mesh, file);
-    GltfRig rig{&object->rig.rig, object->rig.tip, {}, object->animations};
+    GltfRig rig{
+        &object->rig.rig, object->rig.tip, {}, object->animations, &object->detection->mesh->mesh->source};
     if (object->in_rest_pose) rig.pose = object->rig.rest;
     source.bytes = add_skin(source.bytes, source.primitives, rig, source.limits);
+    for (GltfPrimitive& primitive : source.primitives) primitive.mirrored = false;  // turned in the file
     write_file_atomically(file, with_landmarks(*object->detection, source));
   });
 }

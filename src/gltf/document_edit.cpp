@@ -45,6 +45,23 @@ OrderedJson& shown_scene(OrderedJson& root) {
   return scenes[0];
 }
 
+OrderedJson* focal_extras(OrderedJson& element) {
+  OrderedJson* extras = find(element, "extras");
+  return extras ? find(*extras, "focal") : nullptr;
+}
+
+void NodePool::release(std::vector<size_t> nodes) {
+  for (const size_t node : nodes) put(root_["nodes"][node], "{}");
+  free_.insert(free_.end(), nodes.rbegin(), nodes.rend());
+}
+
+size_t NodePool::take() {
+  if (free_.empty()) return append_element(root_, "nodes", "{}");
+  const size_t node = free_.back();
+  free_.pop_back();
+  return node;
+}
+
 std::vector<std::byte> edited_file(const GltfContainer& container, const OrderedJson& root,
                                    std::span<const std::byte> bin) {
   const std::string_view before(reinterpret_cast<const char*>(container.json.data()), container.json.size());

@@ -29,6 +29,21 @@ size_t append_element(OrderedJson& root, const char* list, const std::string& te
 // end here.
 OrderedJson& shown_scene(OrderedJson& root);
 
+OrderedJson* focal_extras(OrderedJson& element);  // extras.focal, or null
+
+// Nodes for new content: those that an earlier call left behind (taking them out of the list would renumber the others), then
+// new ones.
+class NodePool {
+ public:
+  explicit NodePool(OrderedJson& root) : root_(root) {}
+  void release(std::vector<size_t> nodes);  // they become empty
+  size_t take();
+
+ private:
+  OrderedJson& root_;
+  std::vector<size_t> free_;  // last first
+};
+
 // The file again, of the kind it came as. bin: takes the place of its BIN chunk, or becomes it; empty: as it was.
 std::vector<std::byte> edited_file(const GltfContainer& container, const OrderedJson& root,
                                    std::span<const std::byte> bin = {});

@@ -18,12 +18,6 @@ using Json = OrderedJson;
 constexpr const char* kGroupName = "focal_landmarks";
 constexpr const char* kVersion = "1";
 
-// extras.focal of an element, or null.
-Json* focal_extras(Json& element) {
-  Json* extras = find(element, "extras");
-  return extras ? find(*extras, "focal") : nullptr;
-}
-
 std::string describe(const GltfLandmark& landmark) {
   return R"("status":)" + json_string(landmark.status) + R"(,"confidence":)" +
          json_number(landmark.confidence);
@@ -40,23 +34,22 @@ void check(const GltfLandmark& landmark) {
 class LandmarkInserter {
  public:
   LandmarkInserter(Json& root, std::span<const GltfPrimitive> primitives)
-      : root_(root), primitives_(primitives) {}
+      : root_(root), primitives_(primitives), pool_(root) {}
 
   void add_nodes(std::span<const GltfLandmark> landmarks);
   void add_mesh_extras(std::span<const GltfLandmark> landmarks);
 
  private:
-  size_t take_node();
   void release_former_nodes(Json& scene_nodes);
   const GltfPrimitive& primitive_of(const GltfLandmark& landmark) const;
 
   Json& root_;
   std::span<const GltfPrimitive> primitives_;
-  std::vector<size_t> free_nodes_;  // of an earlier call, last first
+  NodePool pool_;
 };
 
-// The group of an earlier call leaves the scene, and its nodes may be used again. (Removing them would renumber the
-// nodes behind them.) One to which the user has hung something of his own stays.
+// The group of an earlier call leaves the scene, and its nodes may be used again. One to which the user has hung something of
+// his own stays.
 void LandmarkInserter::release_former_nodes(Json& scene_nodes) {
   Json& nodes = root_["nodes"];
   const auto is_bare = [&](const Json& index) {
@@ -72,36 +65,25 @@ void LandmarkInserter::release_former_nodes(Json& scene_nodes) {
   };
   auto& roots = scene_nodes.get_ref<Json::array_t&>();
   const auto former = std::stable_partition(roots.begin(), roots.end(), std::not_fn(is_former_group));
+  std::vector<size_t> released;
   for (auto group = former; group != roots.end(); ++group) {
-    free_nodes_.push_back(group->get<size_t>());
+    released.push_back(group->get<size_t>());
     if (const Json* children = find(nodes[group->get<size_t>()], "children"))
-      for (const Json& child : *children) free_nodes_.push_back(child.get<size_t>());
+      for (const Json& child : *children) released.push_back(child.get<size_t>());
   }
   roots.erase(former, roots.end());
-  for (const size_t node : free_nodes_) put(nodes[node], "{}");
-  std::reverse(free_nodes_.begin(), free_nodes_.end());
-}
-
-size_t LandmarkInserter::take_node() {
-  Json& nodes = root_["nodes"];
-  if (free_nodes_.empty()) {
-    nodes.emplace_back(Json::value_t::object);
-    return nodes.size() - 1;
-  }
-  const size_t node = free_nodes_.back();
-  free_nodes_.pop_back();
-  return node;
+  pool_.release(released);
 }
 
 void LandmarkInserter::add_nodes(std::span<const GltfLandmark> landmarks) {
   Json& scene_nodes = member_or_new(shown_scene(root_), "nodes", Json::value_t::array);
-  Json& nodes = root_["nodes"];
   release_former_nodes(scene_nodes);
-  const size_t group = take_node();
+  Json& nodes = root_["nodes"];
+  const size_t group = pool_.take();
   std::string children;
   for (const GltfLandmark& landmark : landmarks) {
     if (landmark.status == "absent") continue;
-    const size_t node = take_node();
+    const size_t node = pool_.take();
     put(nodes[node], R"({"name":)" + json_string(landmark.name) + R"(,"translation":)" +
                          json_array(landmark.position) + R"(,"extras":{"focal":{)" + describe(landmark) +
                          "}}}");

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "gltf/document_edit.h"
+#include "gltf/former_rig.h"
 #include "gltf/glb.h"
 #include "gltf/text.h"
 #include "gltf/writer.h"
@@ -18,6 +19,7 @@ namespace {
 using Json = OrderedJson;
 
 constexpr int32_t most_joints = 65536;  // what 16 bits number
+constexpr const char *kVertexTarget = "34962", *kIndexTarget = "34963";
 
 template <class T>
 void append(std::vector<std::byte>& bytes, const std::vector<T>& values) {
@@ -35,7 +37,12 @@ class SkinInserter {
  public:
   SkinInserter(Json& root, std::span<const GltfPrimitive> primitives, const GltfRig& rig,
                std::span<const std::byte> bin, bool owns_bin)
-      : root_(root), primitives_(primitives), rig_(rig), data_(bin.begin(), bin.end()), owns_bin_(owns_bin) {}
+      : root_(root),
+        primitives_(primitives),
+        rig_(rig),
+        data_(bin.begin(), bin.end()),
+        owns_bin_(owns_bin),
+        pool_(root) {}
 
   void add();
   // The BIN chunk of a .glb, the old one included; empty when the data went into a buffer of its own.
@@ -46,10 +53,12 @@ class SkinInserter {
   void end_data();
   template <class T>
   size_t add_accessor(const std::vector<T>& values, size_t count, const std::string& format,
-                      bool is_attribute);
+                      const char* target = nullptr);
   void add_joint_nodes();
   size_t skin_for(const Matrix4& world_transform);
+  size_t place_skin(const std::string& text);
   void add_weights(const GltfPrimitive& primitive);
+  void turn_triangles(const GltfPrimitive& primitive);
   void add_animation(const JointAnimation& animation);
   void attach(const GltfPrimitive& primitive, size_t skin);
   void spare_other_instances(int32_t mesh, int32_t node);
@@ -62,6 +71,8 @@ class SkinInserter {
   std::vector<std::byte> data_;  // of buffer_, from its beginning
   bool owns_bin_;
   size_t buffer_ = 0;
+  NodePool pool_;
+  std::vector<size_t> free_skins_;  // of an earlier call
   std::vector<size_t> joint_node_;
   std::vector<std::pair<Matrix4, size_t>> skins_;
 };
@@ -86,13 +97,13 @@ void SkinInserter::end_data() {
 
 template <class T>
 size_t SkinInserter::add_accessor(const std::vector<T>& values, size_t count, const std::string& format,
-                                  bool is_attribute) {
+                                  const char* target) {
   data_.resize((data_.size() + 3) / 4 * 4);
   const size_t view = append_element(root_, "bufferViews",
                                      R"({"buffer":)" + std::to_string(buffer_) + R"(,"byteOffset":)" +
                                          std::to_string(data_.size()) + R"(,"byteLength":)" +
                                          std::to_string(values.size() * sizeof(T)) +
-                                         (is_attribute ? R"(,"target":34962})" : "}"));
+                                         (target ? R"(,"target":)" + std::string(target) : "") + "}");
   append(data_, values);
   return append_element(root_, "accessors",
                         R"({"bufferView":)" + std::to_string(view) + R"(,"count":)" + std::to_string(count) +
@@ -104,20 +115,18 @@ void SkinInserter::add_joint_nodes() {
   const auto& joints = rig_.rig->joints;
   std::vector<std::string> children(joints.size());
   std::string roots;
-  const size_t first = nodes().size();
-  size_t next = first + joints.size();
   for (size_t j = 0; j < joints.size(); ++j) {
-    joint_node_.push_back(first + j);
+    joint_node_.push_back(pool_.take());
     std::string& list = joints[j].parent < 0 ? roots : children[joints[j].parent];
     list += (list.empty() ? "" : ",") + std::to_string(joint_node_[j]);
   }
-  std::vector<std::string> tips;
   for (size_t j = 0; j < joints.size(); ++j) {
     if (!children[j].empty() || rig_.tips.empty()) continue;
     const Vector3 tip = (joints[j].bind.inverse() * rig_.tips[j].homogeneous()).head<3>();
-    tips.push_back(R"({"name":)" + json_string(joints[j].name + "_tip") + R"(,"translation":)" +
-                   json_array(tip) + R"(,"extras":{"focal":{"tip":true}}})");
-    children[j] = std::to_string(next++);
+    const size_t node = pool_.take();
+    put(nodes()[node], R"({"name":)" + json_string(joints[j].name + "_tip") + R"(,"translation":)" +
+                           json_array(tip) + R"(,"extras":{"focal":{"tip":true}}})");
+    children[j] = std::to_string(node);
   }
   for (size_t j = 0; j < joints.size(); ++j) {
     const auto stands = [&](size_t joint) {
@@ -125,15 +134,14 @@ void SkinInserter::add_joint_nodes() {
     };
     Matrix4 local = stands(j);
     if (joints[j].parent >= 0) local = stands(static_cast<size_t>(joints[j].parent)).inverse() * local;
-    append_element(root_, "nodes",
-                   R"({"name":)" + json_string(joints[j].name) + R"(,"translation":)" +
-                       json_array(local.topRightCorner<3, 1>()) + R"(,"rotation":)" +
-                       quaternion_json(local.topLeftCorner<3, 3>()) +
-                       (children[j].empty() ? "" : R"(,"children":[)" + children[j] + "]") + "}");
+    put(nodes()[joint_node_[j]], R"({"name":)" + json_string(joints[j].name) + R"(,"translation":)" +
+                                     json_array(local.topRightCorner<3, 1>()) + R"(,"rotation":)" +
+                                     quaternion_json(local.topLeftCorner<3, 3>()) +
+                                     (children[j].empty() ? "" : R"(,"children":[)" + children[j] + "]") +
+                                     "}");
   }
-  for (const std::string& tip : tips) append_element(root_, "nodes", tip);
-  const size_t armature = append_element(
-      root_, "nodes",
+  const size_t armature = pool_.take();
+  put(nodes()[armature],
       R"({"name":"focal_skeleton","children":[)" + roots + R"(],"extras":{"focal":{"version":1}}})");
   member_or_new(shown_scene(root_), "nodes", Json::value_t::array).push_back(armature);
 }
@@ -151,11 +159,18 @@ size_t SkinInserter::skin_for(const Matrix4& world_transform) {
     list += (j ? "," : "") + std::to_string(joint_node_[j]);
   }
   const size_t accessor =
-      add_accessor(inverse_bind, joint_node_.size(), R"("componentType":5126,"type":"MAT4")", false);
-  const size_t skin = append_element(
-      root_, "skins",
-      R"({"inverseBindMatrices":)" + std::to_string(accessor) + R"(,"joints":[)" + list + "]}");
+      add_accessor(inverse_bind, joint_node_.size(), R"("componentType":5126,"type":"MAT4")");
+  const size_t skin =
+      place_skin(R"({"inverseBindMatrices":)" + std::to_string(accessor) + R"(,"joints":[)" + list + "]}");
   skins_.emplace_back(world_transform, skin);
+  return skin;
+}
+
+size_t SkinInserter::place_skin(const std::string& text) {
+  if (free_skins_.empty()) return append_element(root_, "skins", text);
+  const size_t skin = free_skins_.back();
+  free_skins_.pop_back();
+  put(root_["skins"][skin], text);
   return skin;
 }
 
@@ -175,15 +190,30 @@ void SkinInserter::add_weights(const GltfPrimitive& primitive) {
     }
   }
   const auto count = static_cast<size_t>(primitive.vertex_count);
-  const size_t joints = fits ? add_accessor(narrow, count, R"("componentType":5121,"type":"VEC4")", true)
-                             : add_accessor(wide, count, R"("componentType":5123,"type":"VEC4")", true);
-  const size_t shares = add_accessor(weights, count, R"("componentType":5126,"type":"VEC4")", true);
+  const size_t joints =
+      fits ? add_accessor(narrow, count, R"("componentType":5121,"type":"VEC4")", kVertexTarget)
+           : add_accessor(wide, count, R"("componentType":5123,"type":"VEC4")", kVertexTarget);
+  const size_t shares = add_accessor(weights, count, R"("componentType":5126,"type":"VEC4")", kVertexTarget);
   Json& attributes = root_["meshes"][primitive.mesh]["primitives"][primitive.primitive]["attributes"];
   for (int set = 0;; ++set) {
     const std::string number = std::to_string(set);
     if (attributes.erase("JOINTS_" + number) + attributes.erase("WEIGHTS_" + number) == 0) break;
   }
   attributes["JOINTS_0"] = joints, attributes["WEIGHTS_0"] = shares;
+}
+
+// A skin's mesh ignores its node, a mirroring one too: its triangles are turned, so that their outside stays outside.
+void SkinInserter::turn_triangles(const GltfPrimitive& primitive) {
+  std::vector<uint32_t> indices;
+  for (int32_t t = 0; t < primitive.triangle_count; ++t)
+    for (int k = 0; k < 3; ++k)
+      indices.push_back(static_cast<uint32_t>(rig_.mesh->triangles(primitive.first_triangle + t, k) -
+                                              primitive.first_vertex));
+  const size_t accessor =
+      add_accessor(indices, indices.size(), R"("componentType":5125,"type":"SCALAR")", kIndexTarget);
+  Json& element = root_["meshes"][primitive.mesh]["primitives"][primitive.primitive];
+  element.erase("mode");  // a strip or fan is a list now
+  element["indices"] = accessor;
 }
 
 void SkinInserter::add_animation(const JointAnimation& animation) {
@@ -193,14 +223,13 @@ void SkinInserter::add_animation(const JointAnimation& animation) {
   const size_t input =
       add_accessor(times, count,
                    R"("componentType":5126,"type":"SCALAR","min":[)" + json_number(times.front()) +
-                       R"(],"max":[)" + json_number(times.back()) + "]",
-                   false);
+                       R"(],"max":[)" + json_number(times.back()) + "]");
   std::string samplers, channels;
   size_t sampler = 0;
   const auto add_channel = [&](size_t joint, const char* path, const std::vector<float>& values,
                                const char* type) {
     const size_t output =
-        add_accessor(values, count, std::string(R"("componentType":5126,"type":")") + type + R"(")", false);
+        add_accessor(values, count, std::string(R"("componentType":5126,"type":")") + type + R"(")");
     const std::string comma = sampler ? "," : "";
     samplers +=
         comma + R"({"input":)" + std::to_string(input) + R"(,"output":)" + std::to_string(output) + "}";
@@ -273,14 +302,23 @@ void SkinInserter::retire_former_skins(size_t count) {
 void SkinInserter::add() {
   const Json* former = find(root_, "skins");
   const size_t former_skins = former ? former->size() : 0;
+  FormerRig rig = release_former_rig(root_);
+  free_skins_ = rig.skins;
+  pool_.release(std::move(rig.nodes));
   begin_data();
   add_joint_nodes();
   std::map<int32_t, const GltfPrimitive*> meshes;
   for (const GltfPrimitive& primitive : primitives_)
     if (meshes.emplace(primitive.mesh, &primitive).second)
       spare_other_instances(primitive.mesh, primitive.node);
-  for (const GltfPrimitive& primitive : primitives_) add_weights(primitive);
+  for (const GltfPrimitive& primitive : primitives_) {
+    add_weights(primitive);
+    if (primitive.mirrored) turn_triangles(primitive);
+  }
   for (const auto& [mesh, primitive] : meshes) attach(*primitive, skin_for(primitive->world_transform));
+  for (const size_t skin : skins_.empty() ? std::vector<size_t>{}
+                                          : free_skins_)  // nobody uses it, but what it names must be joints
+    root_["skins"][skin] = root_["skins"][skins_.front().second];
   retire_former_skins(former_skins);
   for (const JointAnimation& animation : rig_.animations) add_animation(animation);
   end_data();
@@ -296,6 +334,9 @@ void check(std::span<const GltfPrimitive> primitives, const GltfRig& rig) {
       (!rig.tips.empty() && rig.tips.size() != joints) || (!rig.pose.empty() && rig.pose.size() != joints))
     throw Error(Status::invalid_argument, "the rig does not suit the mesh",
                 "pass the rig made for this mesh");
+  if (!rig.mesh && std::any_of(primitives.begin(), primitives.end(),
+                               [](const GltfPrimitive& primitive) { return primitive.mirrored; }))
+    throw Error(Status::invalid_argument, "a mirrored mesh needs its triangles", "pass GltfRig.mesh");
   for (const Matrix4& place : rig.pose)
     if (!place.cast<float>().allFinite())
       throw Error(Status::invalid_argument, "a joint's pose is not finite", "pass rigid poses");

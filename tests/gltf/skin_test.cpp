@@ -56,7 +56,7 @@ void check_same(const Rig& a, const Rig& b) {
 Rig through_file(const std::vector<std::byte>& source, std::vector<std::byte>* written = nullptr) {
   const GltfMesh mesh = read_gltf_memory(source);
   const Rig rig = two_joints(static_cast<size_t>(mesh.mesh.vertex_count()));
-  const auto result = add_skin(source, mesh.primitives, {&rig, tips()});
+  const auto result = add_skin(source, mesh.primitives, {&rig, tips(), {}, {}, &mesh.mesh});
   const GltfMesh again = read_gltf_memory(result);
   CHECK((again.mesh.positions - mesh.mesh.positions).norm() < 1e-5);
   const auto read = read_gltf_rig(result, again.primitives);
@@ -167,6 +167,58 @@ TEST_CASE("a character's own skin makes way") {
   const json root = parsed(written);
   CHECK(root["skins"].size() == 2);
   CHECK(root["nodes"][0]["skin"] == 1);
+}
+
+TEST_CASE("a second call replaces the skeleton of the first, with its animations") {
+  std::vector<std::byte> once, twice;
+  through_file(tetrahedron().glb(), &once);
+  {
+    const Rig rig = two_joints(4);
+    const GltfMesh mesh = read_gltf_memory(once);
+    JointAnimation wave{"wave", {0, 1}, std::vector<JointKeys>(2)};
+    wave.joints[1].translation = {{0, 0, 0}, {0, 1, 0}};
+    once = add_skin(once, mesh.primitives, {&rig, tips(), {}, {wave}, &mesh.mesh});
+  }
+  const json before = parsed(once);
+  CHECK(before["animations"].size() == 1);
+  CHECK(before["nodes"].size() == 5);  // mesh, group, two joints, a tip
+  through_file(once, &twice);
+  const json after = parsed(twice);
+  CHECK(after["nodes"].size() == before["nodes"].size());
+  CHECK(after["scenes"][0]["nodes"].size() == 2);
+  CHECK(after["skins"].size() == 1);
+  CHECK_FALSE(after.contains("animations"));
+}
+
+TEST_CASE("a skeleton to which the user has hung a sword stays") {
+  std::vector<std::byte> written, again;
+  through_file(tetrahedron().glb(), &written);
+  json root = parsed(written);
+  const auto bone = root["skins"][0]["joints"][1].get<size_t>();
+  root["meshes"].push_back(root["meshes"][0]);
+  root["meshes"][1]["primitives"][0]["attributes"].erase("JOINTS_0");
+  root["meshes"][1]["primitives"][0]["attributes"].erase("WEIGHTS_0");
+  root["nodes"].push_back({{"name", "sword"}, {"mesh", 1}});
+  root["nodes"][bone]["children"].push_back(root["nodes"].size() - 1);
+  const auto bin = open_container(written, {}).bin;
+  through_file(glb_bytes(root.dump(), bin_chunk(bin)), &again);
+  const json after = parsed(again);
+  CHECK(after["nodes"][bone]["name"] == root["nodes"][bone]["name"]);
+  CHECK(after["skins"].size() == 3);  // the old one, and one for each place of a mesh
+}
+
+TEST_CASE("a mesh that its node mirrors stays right side out") {
+  GltfBuilder file = tetrahedron();
+  file.root["nodes"][0]["scale"] = {-2, 2, 2};
+  const auto source = file.glb();
+  std::vector<std::byte> written;
+  through_file(source, &written);
+  const GltfMesh before = read_gltf_memory(source), after = read_gltf_memory(written);
+  CHECK(before.primitives[0].mirrored);
+  CHECK_FALSE(after.primitives[0].mirrored);
+  CHECK(after.mesh.triangles == before.mesh.triangles);  // counter-clockwise from outside in both
+  const Rig rig = two_joints(4);
+  CHECK_THROWS_AS(add_skin(source, before.primitives, {&rig, {}}), Error);  // without the triangles
 }
 
 TEST_CASE("what a skin lacks") {

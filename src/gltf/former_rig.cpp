@@ -1,0 +1,96 @@
+#include "gltf/former_rig.h"
+
+#include <algorithm>
+
+namespace focal {
+namespace {
+
+using Json = OrderedJson;
+
+class FormerRigs {
+ public:
+  explicit FormerRigs(Json& root) : root_(root) {}
+  FormerRig release();
+
+ private:
+  // The node and all below it, parents first; empty when the user has hung something there.
+  std::vector<size_t> bare_tree(size_t top);
+  void release_groups();
+  void release_skins();
+  void release_animations();
+  bool is_released(const Json& node) const { return released_[node.get<size_t>()]; }
+
+  Json& root_;
+  std::vector<bool> released_;  // a node
+  FormerRig result_;
+};
+
+std::vector<size_t> FormerRigs::bare_tree(size_t top) {
+  std::vector<size_t> tree = {top};
+  for (size_t i = 0; i < tree.size(); ++i) {
+    Json& node = root_["nodes"][tree[i]];
+    if (find(node, "mesh") || find(node, "camera") || find(node, "extensions")) return {};
+    if (const Json* children = find(node, "children"))
+      for (const Json& child : *children) tree.push_back(child.get<size_t>());
+  }
+  return tree;
+}
+
+void FormerRigs::release_groups() {
+  auto& roots = member_or_new(shown_scene(root_), "nodes", Json::value_t::array).get_ref<Json::array_t&>();
+  released_.resize(root_["nodes"].size());
+  const auto is_former = [&](const Json& index) {
+    Json& node = root_["nodes"][index.get<size_t>()];
+    const Json* name = find(node, "name");
+    if (!name || *name != "focal_skeleton" || !focal_extras(node)) return false;
+    const auto tree = bare_tree(index.get<size_t>());
+    for (const size_t one : tree) released_[one] = true;
+    result_.nodes.insert(result_.nodes.end(), tree.begin(), tree.end());
+    return !tree.empty();
+  };
+  roots.erase(std::remove_if(roots.begin(), roots.end(), is_former), roots.end());
+}
+
+void FormerRigs::release_skins() {
+  Json* skins = find(root_, "skins");
+  if (!skins) return;
+  for (size_t skin = 0; skin < skins->size(); ++skin) {
+    const Json& joints = (*skins)[skin]["joints"];
+    if (std::any_of(joints.begin(), joints.end(), [&](const Json& joint) { return is_released(joint); }))
+      result_.skins.push_back(skin);
+  }
+  for (Json& node : root_["nodes"]) {
+    const Json* skin = find(node, "skin");
+    if (skin && std::count(result_.skins.begin(), result_.skins.end(), skin->get<size_t>()))
+      node.erase("skin");
+  }
+}
+
+void FormerRigs::release_animations() {
+  Json* animations = find(root_, "animations");
+  if (!animations) return;
+  const auto moves_former_alone = [&](Json& animation) {
+    Json& channels = animation["channels"];
+    return std::all_of(channels.begin(), channels.end(), [&](Json& channel) {
+      const Json* node = find(channel["target"], "node");
+      return node && is_released(*node);
+    });
+  };
+  auto& list = animations->get_ref<Json::array_t&>();
+  list.erase(std::remove_if(list.begin(), list.end(), moves_former_alone), list.end());
+  if (list.empty()) root_.erase("animations");  // glTF allows no empty list
+}
+
+FormerRig FormerRigs::release() {
+  release_groups();
+  if (result_.nodes.empty()) return {};
+  release_skins();
+  release_animations();
+  return result_;
+}
+
+}  // namespace
+
+FormerRig release_former_rig(OrderedJson& root) { return FormerRigs(root).release(); }
+
+}  // namespace focal
