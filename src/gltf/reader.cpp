@@ -96,7 +96,7 @@ class Plan {
                               .first_triangle = static_cast<int32_t>(triangles_),
                               .triangle_count = static_cast<int32_t>(triangle_count),
                               .world_transform = placement.world_transform,
-                              .mirrored = placement.world_transform.topLeftCorner<3, 3>().determinant() < 0};
+                              .mirrored = placement.mirrored};
     parts_.push_back({&primitive, mode, corners, range});
     vertices_ += vertex_count;
     triangles_ += triangle_count;

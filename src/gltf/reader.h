@@ -28,7 +28,7 @@ struct GltfPrimitive {
   int32_t first_vertex = 0, vertex_count = 0;
   int32_t first_triangle = 0, triangle_count = 0;
   Matrix4 world_transform = Matrix4::Identity();  // merged position = world_transform * position in the file
-  // world_transform turns left into right: corners 1 and 2 of each triangle were swapped, so that triangles
+  // The node's place turns left into right: corners 1 and 2 of each triangle were swapped, so that triangles
   // stay counter-clockwise from outside.
   bool mirrored = false;
 };

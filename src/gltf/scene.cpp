@@ -187,16 +187,17 @@ std::vector<MeshPlacement> placed_meshes(const json& root, GltfBuffers& buffers,
       continue;
     }
     seen[static_cast<size_t>(mesh)] = true;
+    const bool mirrored = nodes.world_transform(node).topLeftCorner<3, 3>().determinant() < 0;
     const json* skin = member(nodes[node], "skin");
     if (!skin) {
-      result.push_back({mesh, node, nodes.world_transform(node)});
+      result.push_back({mesh, node, nodes.world_transform(node), mirrored});
       continue;
     }
     const auto index = skin->get<int32_t>();
     auto found = skins.find(index);
     if (found == skins.end())
       found = skins.emplace(index, skin_transform(root, nodes, index, buffers, warnings)).first;
-    result.push_back({mesh, node, found->second});
+    result.push_back({mesh, node, found->second, mirrored});
   }
   if (repeats > 0)
     warnings.push_back(std::to_string(repeats) +
@@ -204,7 +205,7 @@ std::vector<MeshPlacement> placed_meshes(const json& root, GltfBuffers& buffers,
   if (result.empty() && !meshes.empty()) {
     warnings.push_back("no node shows a mesh; the meshes were taken as they stand");
     for (size_t mesh = 0; mesh < meshes.size(); ++mesh)
-      result.push_back({static_cast<int32_t>(mesh), -1, Matrix4::Identity()});
+      result.push_back({static_cast<int32_t>(mesh)});
   }
   return result;
 }

@@ -93,7 +93,10 @@ Vector3 section_centre(const RayCaster& surface, const Vector3& point, const Vec
   const Vector3 inward = -outward;
   const MatrixX3& positions = surface.mesh().positions;
   const double size = (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).norm();
-  const double radius = inscribed_radius(surface.mesh(), point, inward, size / 2);
+  // No wider than the way through the body, which vertices far apart do not tell.
+  const double skin = 1e-3 * size;
+  const double through = surface.first_hit(point + skin * inward, inward, size).distance;
+  const double radius = inscribed_radius(surface.mesh(), point, inward, through / 2);
   const double longest = 6 * radius, widest = 3 * radius;  // farther is another part, or out through a hole
   Vector3 centre = point + radius * inward;
   for (int round = 0; round < 3; ++round)

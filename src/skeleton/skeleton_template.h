@@ -9,13 +9,13 @@
 namespace focal {
 
 struct TemplateJoint {
-  std::string name, parent;  // parent: the name of one before it; empty: a root
+  std::string name = {}, parent = {};  // parent: the name of one before it; empty: a root
   // One of these says where it lies: the mean over landmarks of the centres of the cross-sections under them; the mean of the
   // landmarks themselves; or on the line between two joints or landmarks.
-  std::vector<std::string> centre, surface, between;
-  double share = 0.5;           // of the way from the first to the second of `between`, 0..1
-  std::string tip;              // the landmark where it ends; empty: the far end of the part that it moves
-  std::optional<Vector3> rest;  // the way its bone points in the rest pose, in the mesh's coordinates
+  std::vector<std::string> centre = {}, surface = {}, between = {};
+  double share = 0.5;    // of the way from the first to the second of `between`, 0..1
+  std::string tip = {};  // the landmark where it ends; empty: the far end of the part that it moves
+  std::optional<Vector3> rest = {};  // the way its bone points in the rest pose, in the mesh's coordinates
 };
 
 struct SkeletonTemplate {

@@ -229,6 +229,37 @@ TEST_CASE("rig, and train on rigs, say what they lack") {
   check_fails("train -o " + (scratch / "a.focal"), "either a SET or --rigs");
 }
 
+TEST_CASE("rig by a template: joints where its landmarks say, or a word on what is wrong with it") {
+  const ScratchFolder scratch;
+  const std::string file = scratch / "template.json";
+  const std::string rig =
+      "rig " + eggs().model() + " " + eggs().mesh() + " --template " + file + " -o " + (scratch / "a.glb");
+  const auto write = [&](const std::string& joints) {
+    std::ofstream(file) << R"({"format": "focal-skeleton-template", "version": 1, "joints": [)" << joints
+                        << "]}";
+  };
+  write(
+      R"({"name": "body", "between": ["nose", "tail"]}, {"name": "tip", "parent": "body", "surface": ["tail"]})");
+  const json report = focal_json(rig);
+  REQUIRE(report["joints"].size() == 2);
+  CHECK(report["joints"][0]["name"] == "body");
+  CHECK(report["joints"][1]["parent"] == "body");
+  CHECK(report["weights"]["max_influences"] == 2);
+  CHECK(focal_json("info " + (scratch / "a.glb"))["kind"] == "mesh");
+  check_fails(rig + " --animations " + eggs().mesh(), "together with a template");
+  check_fails(rig + " --rest-pose", "no rest pose");
+  write(R"({"name": "body", "between": ["nose", "tial"]})");
+  check_fails(rig, "'tial'");
+  write(R"({"name": "body", "middle": ["nose", "tail"]})");
+  check_fails(rig, "unknown \"middle\"");
+  write(R"({"name": 7})");
+  check_fails(rig, "no text");
+  std::ofstream(file) << "{}";
+  check_fails(rig, "format");
+  std::ofstream(file) << "[1,";
+  check_fails(rig, "template.json");
+}
+
 TEST_CASE("segment: a label for each triangle, by the landmarks' names") {
   const ScratchFolder scratch;
   const std::string out = " -o " + (scratch / "parts.glb");

@@ -11,16 +11,15 @@
 #include <set>
 #include <sstream>
 
-#include "base/atomic_file.h"
 #include "base/random.h"
 #include "base/stopwatch.h"
 #include "correspondence/segmentation.h"
 #include "evaluation_data.h"
-#include "gltf/skin.h"
 #include "landmarks/model_file.h"
 #include "landmarks/train.h"
+#include "rig/rigged_file.h"
+#include "rig/skeleton_metrics.h"
 #include "skeleton/rig_transfer.h"
-#include "skeleton/rigged_shapes.h"
 
 namespace {
 
@@ -37,14 +36,6 @@ struct Truth {
   Rig rig;  // of the rest pose
 };
 
-RiggedMesh read_rig(const Path& file) {
-  const auto bytes = read_file(file);
-  GltfMesh mesh = read_gltf_memory(bytes);
-  auto rig = read_gltf_rig(bytes, mesh.primitives);
-  if (!rig) throw std::runtime_error(file.string() + " has no skin");
-  return {std::make_shared<const PreparedMesh>(prepare(std::move(mesh.mesh))), std::move(*rig)};
-}
-
 Vector3 vector_of(const nlohmann::json& values) {
   return {values[0].get<double>(), values[1].get<double>(), values[2].get<double>()};
 }
@@ -60,7 +51,7 @@ Truth read_truth(const Path& set, const std::string& name) {
     truth.turn.push_back(
         Eigen::Quaterniond(q[3].get<double>(), q[0], q[1], q[2]).normalized().toRotationMatrix());
   }
-  const RiggedMesh rigged = read_rig(set / (name + ".rig.glb"));
+  const RiggedMesh rigged = focal_test::read_rig(set / (name + ".rig.glb"));
   truth.rest_positions = rigged.mesh->source.positions, truth.rig = rigged.rig;
   return truth;
 }
@@ -75,7 +66,8 @@ std::vector<std::string> words(const std::string& list) {
 struct Errors {
   std::vector<double> joints;  // of body height
   std::map<std::string, std::vector<double>> by_joint;
-  double weights = 0, posed = 0, chamfer = 0, seconds = 0;
+  double weights = 0, posed = 0, seconds = 0;
+  focal_test::SkeletonMetrics skeleton;
   double parts = 0, k_means = 0, random_k_means = 0;  // mean intersection over union
   double height = 0;
 };
@@ -175,16 +167,6 @@ void judge_parts(const Detection& detection, const CharacterRig& found, const Tr
   errors.random_k_means = mean_iou(named_by_truth(others, true_labels, area), true_labels, area);
 }
 
-double nearest_mean(const std::vector<Vector3>& from, const std::vector<Vector3>& to) {
-  double sum = 0;
-  for (const Vector3& a : from) {
-    double least = 1e30;
-    for (const Vector3& b : to) least = std::min(least, (a - b).norm());
-    sum += least / static_cast<double>(from.size());
-  }
-  return sum;
-}
-
 Errors judge(const std::shared_ptr<const LandmarkModel>& model, const Path& set, const std::string& name) {
   const Truth truth = read_truth(set, name);
   const auto mesh = std::make_shared<const PreparedMesh>(prepare(read_gltf(set / (name + ".glb")).mesh));
@@ -194,19 +176,25 @@ Errors judge(const std::shared_ptr<const LandmarkModel>& model, const Path& set,
   Errors errors;
   errors.seconds = watch.lap();
   errors.height = truth.rest_positions.col(1).maxCoeff() - truth.rest_positions.col(1).minCoeff();
-  std::vector<Vector3> places;
   for (size_t t = 0; t < truth.name.size(); ++t)
     for (const Joint& joint : found.rig.joints)
       if (joint.name == truth.name[t]) {
-        places.push_back(joint.bind.topRightCorner<3, 1>());
-        errors.joints.push_back((places.back() - truth.place[t]).norm() / errors.height);
+        const Vector3 place = joint.bind.topRightCorner<3, 1>();
+        errors.joints.push_back((place - truth.place[t]).norm() / errors.height);
         errors.by_joint[joint.name].push_back(errors.joints.back());
       }
   errors.weights = weight_difference(found, truth);
   errors.posed = reposing_error(found, truth, mesh->source.positions) / errors.height;
   judge_parts(detection, found, truth, errors);
-  errors.chamfer =
-      (nearest_mean(places, truth.place) + nearest_mean(truth.place, places)) / 2 / errors.height;
+  std::vector<Joint> true_joints;
+  for (size_t t = 0; t < truth.name.size(); ++t) {
+    const auto parent = std::find(truth.name.begin(), truth.name.end(), truth.parent[t]);
+    true_joints.push_back({truth.name[t], -1});
+    if (parent != truth.name.end())
+      true_joints.back().parent = static_cast<int32_t>(parent - truth.name.begin());
+    true_joints.back().bind.topRightCorner<3, 1>() = truth.place[t];
+  }
+  errors.skeleton = focal_test::compare_skeletons(found.rig.joints, true_joints, mesh->source);
   return errors;
 }
 
@@ -214,6 +202,51 @@ double mean(const std::vector<double>& values) {
   double sum = 0;
   for (const double x : values) sum += x / static_cast<double>(values.size());
   return sum;
+}
+
+void print_row(const std::string& name, std::vector<double> joints, const std::vector<double>& rest) {
+  std::sort(joints.begin(), joints.end());
+  std::printf("%-14s %8.2f %8.2f %8.2f", name.c_str(), 100 * mean(joints),
+              100 * joints[joints.size() * 95 / 100], 100 * joints.back());
+  for (const double x : rest) std::printf(" %8.3f", x);
+  std::printf("\n");
+}
+
+void judge_all(const std::shared_ptr<const LandmarkModel>& model, const Path& set,
+               const std::vector<std::string>& names) {
+  const std::vector<const char*> columns = {"joints %", "p95 %",   "worst %", "weights", "posed %",
+                                            "parts",    "k-means", "random",  "J2J %",   "J2B %",
+                                            "B2B %",    "IoU",     "prec.",   "recall",  "seconds"};
+  std::printf("%-14s", "mesh");
+  for (const char* column : columns) std::printf(" %8s", column);
+  std::printf("\n");
+  std::vector<double> joints, sums;
+  std::map<std::string, std::vector<double>> by_joint;
+  for (const auto& name : names) {
+    const Errors e = judge(model, set, name);
+    const auto& s = e.skeleton;
+    const std::vector<double> rest = {e.weights,
+                                      100 * e.posed,
+                                      e.parts,
+                                      e.k_means,
+                                      e.random_k_means,
+                                      100 * s.joints_to_joints,
+                                      100 * s.joints_to_bones,
+                                      100 * s.bones_to_bones,
+                                      s.iou,
+                                      s.precision,
+                                      s.recall,
+                                      e.seconds};
+    print_row(name, e.joints, rest);
+    sums.resize(rest.size());
+    for (size_t i = 0; i < rest.size(); ++i) sums[i] += rest[i] / static_cast<double>(names.size());
+    joints.insert(joints.end(), e.joints.begin(), e.joints.end());
+    for (const auto& [joint, values] : e.by_joint)
+      by_joint[joint].insert(by_joint[joint].end(), values.begin(), values.end());
+  }
+  print_row("all", joints, sums);
+  for (const auto& [joint, values] : by_joint)
+    std::printf("  %-16s %.2f\n", joint.c_str(), 100 * mean(values));
 }
 
 }  // namespace
@@ -243,7 +276,8 @@ int main(int count, char** arguments) {
     model = std::make_shared<const LandmarkModel>(parse_model(read_file(options["--model"])));
   } else {
     std::vector<RiggedMesh> characters;
-    for (const auto& name : train_names) characters.push_back(read_rig(*set / (name + ".rig.glb")));
+    for (const auto& name : train_names)
+      characters.push_back(focal_test::read_rig(*set / (name + ".rig.glb")));
     RiggedShapesParams how;
     how.seed = std::stoull(options["--seed"]);
     TrainParams params;
@@ -253,30 +287,6 @@ int main(int count, char** arguments) {
   }
   std::printf("%zu characters, %zu landmarks, %zu joints, %.0f s\n", train_names.size(),
               model->landmark_names.size(), model->skeleton.size(), watch.lap());
-  std::printf("%-14s %8s %8s %8s %8s %8s %8s %8s %8s %8s %8s\n", "mesh", "joints %", "p95 %", "worst %",
-              "J2J %", "weights", "posed %", "parts", "k-means", "random", "seconds");
-  std::vector<double> joints, sums(8, 0);
-  std::map<std::string, std::vector<double>> by_joint;
-  const auto print = [](const std::string& name, std::vector<double> errors,
-                        const std::vector<double>& rest) {
-    std::sort(errors.begin(), errors.end());
-    std::printf("%-14s %8.2f %8.2f %8.2f", name.c_str(), 100 * mean(errors),
-                100 * errors[errors.size() * 95 / 100], 100 * errors.back());
-    std::printf(" %8.2f %8.3f %8.2f %8.3f %8.3f %8.3f %8.2f\n", 100 * rest[0], rest[1], 100 * rest[2],
-                rest[3], rest[4], rest[5], rest[6]);
-  };
-  for (const auto& name : test_names) {
-    const Errors e = judge(model, *set, name);
-    const std::vector<double> rest = {e.chamfer, e.weights,        e.posed,  e.parts,
-                                      e.k_means, e.random_k_means, e.seconds};
-    print(name, e.joints, rest);
-    for (size_t i = 0; i < rest.size(); ++i) sums[i] += rest[i] / static_cast<double>(test_names.size());
-    joints.insert(joints.end(), e.joints.begin(), e.joints.end());
-    for (const auto& [joint, values] : e.by_joint)
-      by_joint[joint].insert(by_joint[joint].end(), values.begin(), values.end());
-  }
-  print("all", joints, sums);
-  for (const auto& [joint, values] : by_joint)
-    std::printf("  %-16s %.2f\n", joint.c_str(), 100 * mean(values));
+  judge_all(model, *set, test_names);
   return 0;
 }
