@@ -104,4 +104,13 @@ Vector3 section_centre(const RayCaster& surface, const Vector3& point, const Vec
   return centre;
 }
 
+Vector3 drawn_inside(const RayCaster& surface, const Vector3& point) {
+  const TriangleMesh& mesh = surface.mesh();
+  if (winding_number(mesh, point) >= 0.5) return point;
+  Eigen::Index nearest = 0;
+  (mesh.positions.rowwise() - point.transpose()).rowwise().squaredNorm().minCoeff(&nearest);
+  const Vector3 normal = area_normals(mesh).row(nearest);
+  return section_centre(surface, mesh.positions.row(nearest), normal.stableNormalized());
+}
+
 }  // namespace focal

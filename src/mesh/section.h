@@ -12,4 +12,7 @@ double winding_number(const TriangleMesh& mesh, const Vector3& point);
 // point of its axis. outward: the surface's normal there, of length 1.
 Vector3 section_centre(const RayCaster& surface, const Vector3& point, const Vector3& outward);
 
+// The point itself when it lies inside; else the centre of the cross-section under the nearest vertex.
+Vector3 drawn_inside(const RayCaster& surface, const Vector3& point);
+
 }  // namespace focal

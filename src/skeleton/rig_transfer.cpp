@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "landmarks/atlas.h"
+#include "mesh/section.h"
 #include "mesh/similarity.h"
 #include "skeleton/rig_landmarks.h"
 
@@ -138,6 +139,14 @@ Joints agreed_joints(const std::vector<SkeletonJoint>& skeleton, const std::vect
   return result;
 }
 
+// A joint that moves vertices belongs inside the body; controls may lie anywhere.
+void draw_inside(Joints& joints, const RowMatrixf& weights, TriangleMesh surface) {
+  const RayCaster rays(std::move(surface));
+  for (size_t j = 0; j < joints.place.size(); ++j)
+    if (weights.col(static_cast<Eigen::Index>(j)).maxCoeff() > 0)
+      joints.place[j] = drawn_inside(rays, joints.place[j]);
+}
+
 std::vector<Matrix4> rest_pose(const LandmarkModel& model, const std::vector<Joint>& joints) {
   std::vector<Matrix4> rest;
   const auto first = std::find_if(model.atlas.begin(), model.atlas.end(),
@@ -226,8 +235,12 @@ CharacterRig transfer_rig(const Detection& detection, const Execution& execution
     opinions[m].weight = weight[m];
   });
   CharacterRig result;
-  const Joints joints = agreed_joints(model.skeleton, opinions, result.warnings);
+  Joints joints = agreed_joints(model.skeleton, opinions, result.warnings);
   warn_of_absent(detection, result.warnings);
+  execution.begin_stage("weights", 0.8, 1);
+  const RowMatrixf weights =
+      smoothed(mapped_weights(model, analysis, maps, weight, execution), analysis.operators.L);
+  draw_inside(joints, weights, {vertices, analysis.surface().triangles});
   const PreparedMesh& full = *detection.mesh;
   const auto to_caller = [&](const Vector3& p) -> Vector3 { return full.centre + full.scale * p; };
   for (size_t j = 0; j < model.skeleton.size(); ++j) {
@@ -240,9 +253,7 @@ CharacterRig transfer_rig(const Detection& detection, const Execution& execution
   result.confidence = joints.confidence;
   if (symmetric) make_bones_symmetric(result);
   result.rest = rest_pose(model, result.rig.joints);
-  execution.begin_stage("weights", 0.8, 1);
-  result.rig.influences = influences_on_source(
-      smoothed(mapped_weights(model, analysis, maps, weight, execution), analysis.operators.L), analysis);
+  result.rig.influences = influences_on_source(weights, analysis);
   execution.begin_stage("done", 1, 1);
   return result;
 }

@@ -119,7 +119,6 @@ class Placer {
   bool place_between();
   void hold(size_t joint, CharacterRig& character);
   Vector3 centre_under(const SurfacePoint& point) const;
-  Vector3 inside(const Vector3& position) const;
 
   const SkeletonTemplate& skeleton_;
   const Detection& detection_;
@@ -149,17 +148,8 @@ std::optional<Placer::Place> Placer::by_landmarks(const Rule& rule) const {
   }
   if (count == 0) return std::nullopt;
   sum.position /= count, sum.confidence /= count;
-  if (below || count > 1) sum.position = inside(sum.position);
+  if (below || count > 1) sum.position = drawn_inside(rays_, sum.position);
   return sum;
-}
-
-// Out of the body: to the middle of it under the nearest vertex.
-Vector3 Placer::inside(const Vector3& position) const {
-  if (winding_number(surface_, position) >= 0.5) return position;
-  Eigen::Index nearest = 0;
-  (surface_.positions.rowwise() - position.transpose()).rowwise().squaredNorm().minCoeff(&nearest);
-  const Vector3 there = surface_.positions.row(nearest).transpose();
-  return section_centre(rays_, there, Vector3(normals_.row(nearest).transpose()).stableNormalized());
 }
 
 std::optional<Placer::Place> Placer::place_of_end(const Rule::End& end) const {
@@ -178,7 +168,7 @@ bool Placer::place_between() {
     const auto a = place_of_end(ends[0]), b = place_of_end(ends[1]);
     if (!a || !b) continue;
     const double share = skeleton_.joints[j].share;
-    places_[j] = Place{inside((1 - share) * a->position + share * b->position),
+    places_[j] = Place{drawn_inside(rays_, (1 - share) * a->position + share * b->position),
                        std::min(a->confidence, b->confidence)};
     any = true;
   }

@@ -71,7 +71,7 @@ TEST_CASE("heat of a bone stays on its own limb, weights sum to one and change s
     CHECK((p.x() < 0 ? weights(v, 0) : weights(v, 3)) > 1 - std::exp(p.y()));
   }
   CHECK(inner > 50);
-  CHECK(across < 0.01);
+  CHECK(across < 0.05);  // by distance through space it would be about a half
   for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t)
     for (int k = 0; k < 3; ++k) {
       const auto a = mesh.triangles(t, k), b = mesh.triangles(t, (k + 1) % 3);

@@ -32,15 +32,15 @@ std::vector<std::string> round_joint(const std::string& joint) {
   return names;
 }
 
-// Arms and legs, each joint in the middle of the limb under its landmarks.
+// Knees and feet, each joint in the middle of the limb under its landmarks.
 SkeletonTemplate limbs() {
   SkeletonTemplate skeleton;
-  skeleton.joints.push_back({.name = "middle", .between = {"leftLowerArm", "rightLowerArm"}});
+  skeleton.joints.push_back({.name = "middle", .between = {"leftLowerLeg", "rightLowerLeg"}});
   for (const std::string side : {"left", "right"}) {
     skeleton.joints.push_back(
-        {.name = side + "LowerArm", .parent = "middle", .centre = round_joint(side + "LowerArm")});
-    skeleton.joints.push_back(
         {.name = side + "LowerLeg", .parent = "middle", .centre = round_joint(side + "LowerLeg")});
+    skeleton.joints.push_back(
+        {.name = side + "Foot", .parent = "middle", .centre = round_joint(side + "Foot")});
   }
   return skeleton;
 }
@@ -89,8 +89,8 @@ TEST_CASE("both sides get bones of one length where the template is symmetric") 
   const auto length = [&](size_t j) {
     return (place_of(found.rig.joints[j]) - place_of(found.rig.joints[0])).norm();
   };
-  CHECK(found.rig.joints[1].name == "leftLowerArm");
-  CHECK(found.rig.joints[3].name == "rightLowerArm");
+  CHECK(found.rig.joints[1].name == "leftLowerLeg");
+  CHECK(found.rig.joints[3].name == "rightLowerLeg");
   CHECK(length(1) == doctest::Approx(length(3)));
   CHECK(length(2) == doctest::Approx(length(4)));
 }
@@ -98,10 +98,10 @@ TEST_CASE("both sides get bones of one length where the template is symmetric") 
 TEST_CASE("a joint whose landmarks are absent lies at its parent, and that is told") {
   Detection partly = detection();
   for (size_t l = 0; l < partly.places.size(); ++l)
-    if (rig_model()->landmark_names[l].starts_with("leftLowerLeg ")) partly.places[l].triangle = -1;
+    if (rig_model()->landmark_names[l].starts_with("leftFoot ")) partly.places[l].triangle = -1;
   const CharacterRig found = rig_by_template(limbs(), partly, execution);
   REQUIRE(found.warnings.size() == 1);
-  CHECK(found.warnings[0].find("'leftLowerLeg'") != std::string::npos);
+  CHECK(found.warnings[0].find("'leftFoot'") != std::string::npos);
   CHECK((place_of(found.rig.joints[2]) - place_of(found.rig.joints[0])).norm() == 0);
   CHECK(found.confidence[2] == 0);
   for (SurfacePoint& place : partly.places) place.triangle = -1;
@@ -116,6 +116,8 @@ TEST_CASE("templates that make no sense are refused, by the joint's name") {
       rig_by_template(skeleton, detection(), execution);
     } catch (const Error& error) {
       CHECK(error.status() == Status::invalid_argument);
+      CAPTURE(what);
+      CAPTURE(std::string(error.what()));
       CHECK(std::string(error.what()).find(what) != std::string::npos);
       return;
     }
@@ -123,7 +125,7 @@ TEST_CASE("templates that make no sense are refused, by the joint's name") {
   };
   using Joints = std::vector<TemplateJoint>;
   refused("no joints", [](Joints& joints) { joints.clear(); });
-  refused("has no name", [](Joints& joints) { joints[1].name = ""; });
+  refused("has no name", [](Joints& joints) { joints[2].name = ""; });
   refused("is there twice", [](Joints& joints) { joints[2].name = joints[1].name; });
   refused("does not come before it", [](Joints& joints) { joints[1].parent = joints[2].name; });
   refused("ways to lie", [](Joints& joints) { joints[1].centre.clear(); });
