@@ -133,6 +133,24 @@ void add_joint_nodes(Glb& glb, const Skeleton& skeleton) {
   }
 }
 
+// "stretch": from rest into the character's pose and back, within two seconds.
+void add_animation(Glb& glb, const Character& made) {
+  const int times = glb.add(std::vector<float>{0, 1, 2}, 5126, "SCALAR", 1);
+  glb.root["accessors"][times]["min"] = {0}, glb.root["accessors"][times]["max"] = {2};
+  Json samplers = Json::array(), channels = Json::array();
+  for (size_t j = 0; j < made.skeleton.joints.size(); ++j) {
+    const int parent = made.skeleton.joints[j].parent;
+    if (parent < 0) continue;  // the character stays where it looks
+    const Eigen::Quaternionf turn(
+        Eigen::Matrix3d(made.pose[parent].rotation().transpose() * made.pose[j].rotation()).cast<float>());
+    std::vector<float> keys = {0, 0, 0, 1, turn.x(), turn.y(), turn.z(), turn.w(), 0, 0, 0, 1};
+    channels.push_back({{"sampler", samplers.size()}, {"target", {{"node", j + 1}, {"path", "rotation"}}}});
+    samplers.push_back({{"input", times}, {"output", glb.add(keys, 5126, "VEC4", 4)}});
+  }
+  glb.root["animations"] =
+      Json::array({{{"name", "stretch"}, {"samplers", samplers}, {"channels", channels}}});
+}
+
 void write_rig(const Character& made, const std::filesystem::path& path) {
   Glb glb;
   add_skin_attributes(glb, glb.add_mesh(made.name, made.rest.positions, made.rest.triangles), made.skin);
@@ -149,6 +167,7 @@ void write_rig(const Character& made, const std::filesystem::path& path) {
   const int binds = glb.add(inverse_binds, 5126, "MAT4", 16);
   glb.root["skins"] = Json::array({{{"skeleton", 1}, {"joints", joints}, {"inverseBindMatrices", binds}}});
   glb.root["scenes"] = Json::array({{{"nodes", {0, 1}}}});
+  add_animation(glb, made);
   glb.write(path);
 }
 

@@ -8,7 +8,7 @@
 
 namespace creatures {
 
-// NAME.glb (posed, no rig), NAME.rig.glb (at rest, with its skin), NAME.joints.json, NAME.landmarks.json.
+// NAME.glb (posed, no rig), NAME.rig.glb (at rest, with its skin and one animation), NAME.joints.json, NAME.landmarks.json.
 void write_character(const Character& character, const std::filesystem::path& folder);
 
 // set.json: which characters to learn from, which to be judged on.

@@ -1,7 +1,8 @@
-// focal_picture OUT.svg MESH.glb[,LANDMARKS.json[,CAPTION[,PITCH[,YAW]]]] ...: draws meshes and landmarks found on them.
+// Draws meshes, landmarks found on them, and rigged ones in a pose of their animations.
 #include <focal/focal.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <fstream>
 #include <iterator>
@@ -15,6 +16,10 @@
 
 namespace {
 
+constexpr const char* usage =
+    "usage: focal_picture [--columns N] OUT.svg "
+    "MESH.glb[,LANDMARKS.json[,CAPTION[,PITCH[,YAW[,ANIMATION,SECONDS]]]]] ...\n";
+
 void check(focal_status status) {
   if (status != FOCAL_OK) throw std::runtime_error(focal_last_error());
 }
@@ -22,9 +27,13 @@ void check(focal_status status) {
 template <class Handle>
 using Owned = std::unique_ptr<Handle, focal_status (*)(Handle*)>;
 
-void load_mesh(const focal_context* context, const std::string& path, picture::Figure& figure) {
+void load_mesh(const focal_context* context, const std::string& path, const std::string& animation,
+               double seconds, picture::Figure& figure) {
+  focal_mesh_params params;
+  check(focal_mesh_params_init(&params, sizeof params));
+  if (!animation.empty()) params.pose_animation = animation.c_str(), params.pose_time = seconds;
   focal_mesh* loaded = nullptr;
-  check(focal_mesh_load_gltf(context, path.c_str(), nullptr, &loaded));
+  check(focal_mesh_load_gltf(context, path.c_str(), &params, &loaded));
   const Owned<focal_mesh> mesh(loaded, focal_mesh_destroy);
   focal_mesh_info info;
   check(focal_mesh_info_init(&info, sizeof info));
@@ -53,26 +62,30 @@ std::vector<picture::Mark> load_marks(const std::string& path) {
 
 picture::Figure load_figure(const focal_context* context, const std::string& argument) {
   std::istringstream words(argument);
-  std::string mesh, marks, pitch, yaw;
+  std::string mesh, marks, pitch, yaw, animation, seconds = "0";
   picture::Figure figure;
   std::getline(words, mesh, ',');
   std::getline(words, marks, ',');
   std::getline(words, figure.caption, ',');
-  load_mesh(context, mesh, figure);
+  std::getline(words, pitch, ',');
+  std::getline(words, yaw, ',');
+  std::getline(words, animation, ',') && std::getline(words, seconds, ',');
+  load_mesh(context, mesh, animation, std::stod(seconds), figure);
   if (!marks.empty()) figure.marks = load_marks(marks);
-  if (std::getline(words, pitch, ',')) figure.pitch = std::stod(pitch);
-  figure.yaw = std::getline(words, yaw, ',') ? std::stod(yaw) : picture::best_yaw(figure);
+  if (!pitch.empty()) figure.pitch = std::stod(pitch);
+  figure.yaw = yaw.empty() ? picture::best_yaw(figure) : std::stod(yaw);
   return figure;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 3) {
-    std::fprintf(stderr, "usage: %s OUT.svg MESH.glb[,LANDMARKS.json[,CAPTION[,PITCH[,YAW]]]] ...\n",
-                 argv[0]);
-    return 2;
+  size_t columns = 0;
+  if (argc > 2 && std::string(argv[1]) == "--columns") {
+    columns = std::strtoul(argv[2], nullptr, 10);
+    argv += 2, argc -= 2;
   }
+  if (argc < 3) return std::fputs(usage, stderr), 2;
   try {
     focal_context* created = nullptr;
     check(focal_context_create(nullptr, &created));
@@ -80,7 +93,7 @@ int main(int argc, char** argv) {
     std::vector<picture::Figure> figures;
     for (int i = 2; i < argc; ++i) figures.push_back(load_figure(context.get(), argv[i]));
     std::ofstream out(argv[1], std::ios::binary);
-    out << picture::draw(figures);
+    out << picture::draw(figures, columns);
     if (!out.flush()) throw std::runtime_error(std::string("cannot write ") + argv[1]);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "focal_picture: %s\n", error.what());
