@@ -1,5 +1,6 @@
 #include "skeleton/rig_transfer.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +10,7 @@
 #include "mesh/section.h"
 #include "mesh/similarity.h"
 #include "skeleton/rig_landmarks.h"
+#include "skeleton/twist.h"
 
 namespace focal {
 namespace {
@@ -139,6 +141,47 @@ Joints agreed_joints(const std::vector<SkeletonJoint>& skeleton, const std::vect
   return result;
 }
 
+// To where its bones lead; to its tip where there are none.
+std::vector<Vector3> bone_directions(const std::vector<SkeletonJoint>& skeleton, const Joints& joints) {
+  std::vector<Vector3> way(skeleton.size(), Vector3::Zero());
+  for (size_t j = 0; j < skeleton.size(); ++j)
+    if (const int32_t p = skeleton[j].parent; p >= 0) way[p] += joints.place[j] - joints.place[p];
+  for (size_t j = 0; j < skeleton.size(); ++j) {
+    if (way[j].isZero()) way[j] = joints.tip[j] - joints.place[j];
+    way[j] = way[j].norm() > 1e-9 ? Vector3(way[j].normalized()) : Vector3::Zero();
+  }
+  return way;
+}
+
+// How far the shapes' opinions of a turn lie apart about an axis, as the variance of their mean.
+double variance_about(const Vector3& axis, const Matrix3& mean, const std::vector<Opinion>& opinions,
+                      size_t joint) {
+  double squares = 0, total = 0, total_squares = 0;
+  for (const Opinion& one : opinions) {
+    if (!one.place[joint]) continue;
+    squares += one.weight * std::pow(twist_about(one.turn[joint] * mean.transpose(), axis), 2);
+    total += one.weight, total_squares += one.weight * one.weight;
+  }
+  return total > 0 ? squares / total * (total_squares / (total * total)) : 1;
+}
+
+void settle_twists(const LandmarkModel& model, const std::vector<Opinion>& opinions, Joints& joints) {
+  const auto first = std::find_if(model.atlas.begin(), model.atlas.end(),
+                                  [](const AtlasShape& shape) { return shape.rig.has_value(); });
+  const std::vector<Vector3> way = bone_directions(model.skeleton, joints);
+  std::vector<TurnedJoint> turned;
+  for (size_t j = 0; j < model.skeleton.size(); ++j) {
+    const auto& bind = first->rig->bind[j];
+    turned.push_back({model.skeleton[j].parent, joints.turn[j],
+                      bind ? Matrix3(bind->topLeftCorner<3, 3>()) : joints.turn[j], way[j],
+                      variance_about(way[j], joints.turn[j], opinions, j)});
+  }
+  const std::vector<double> by = twist_corrections(turned);
+  for (size_t j = 0; j < by.size(); ++j)
+    if (!way[j].isZero())
+      joints.turn[j] = Eigen::AngleAxisd(by[j], way[j]).toRotationMatrix() * joints.turn[j];
+}
+
 // A joint that moves vertices belongs inside the body; controls may lie anywhere.
 void draw_inside(Joints& joints, const RowMatrixf& weights, TriangleMesh surface) {
   const RayCaster rays(std::move(surface));
@@ -236,6 +279,7 @@ CharacterRig transfer_rig(const Detection& detection, const Execution& execution
   });
   CharacterRig result;
   Joints joints = agreed_joints(model.skeleton, opinions, result.warnings);
+  settle_twists(model, opinions, joints);
   warn_of_absent(detection, result.warnings);
   execution.begin_stage("weights", 0.8, 1);
   const RowMatrixf weights =

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <iostream>
 #include <map>
+#include <numbers>
 #include <set>
 #include <sstream>
 
@@ -66,7 +67,8 @@ std::vector<std::string> words(const std::string& list) {
 struct Errors {
   std::vector<double> joints;  // of body height
   std::map<std::string, std::vector<double>> by_joint;
-  double weights = 0, posed = 0, seconds = 0;
+  std::map<std::string, std::vector<double>> turn_by_joint;  // degrees
+  double weights = 0, posed = 0, turn = 0, seconds = 0;
   focal_test::SkeletonMetrics skeleton;
   double parts = 0, k_means = 0, random_k_means = 0;  // mean intersection over union
   double height = 0;
@@ -167,6 +169,13 @@ void judge_parts(const Detection& detection, const CharacterRig& found, const Tr
   errors.random_k_means = mean_iou(named_by_truth(others, true_labels, area), true_labels, area);
 }
 
+Matrix3 rest_axes(const Truth& truth, const std::string& name) {
+  for (const Joint& joint : truth.rig.joints)
+    if (joint.name == name)
+      return Eigen::Quaterniond(Matrix3(joint.bind.topLeftCorner<3, 3>())).normalized().toRotationMatrix();
+  return Matrix3::Identity();
+}
+
 Errors judge(const std::shared_ptr<const LandmarkModel>& model, const Path& set, const std::string& name) {
   const Truth truth = read_truth(set, name);
   const auto mesh = std::make_shared<const PreparedMesh>(prepare(read_gltf(set / (name + ".glb")).mesh));
@@ -182,6 +191,12 @@ Errors judge(const std::shared_ptr<const LandmarkModel>& model, const Path& set,
         const Vector3 place = joint.bind.topRightCorner<3, 1>();
         errors.joints.push_back((place - truth.place[t]).norm() / errors.height);
         errors.by_joint[joint.name].push_back(errors.joints.back());
+        const Matrix3 turned = truth.turn[t] * rest_axes(truth, joint.name),
+                      found_turn = joint.bind.topLeftCorner<3, 3>();
+        const double turn =
+            Eigen::AngleAxisd(turned.transpose() * found_turn).angle() * 180 / std::numbers::pi;
+        errors.turn_by_joint[joint.name].push_back(turn);
+        errors.turn += turn / static_cast<double>(truth.name.size());
       }
   errors.weights = weight_difference(found, truth);
   errors.posed = reposing_error(found, truth, mesh->source.positions) / errors.height;
@@ -214,18 +229,19 @@ void print_row(const std::string& name, std::vector<double> joints, const std::v
 
 void judge_all(const std::shared_ptr<const LandmarkModel>& model, const Path& set,
                const std::vector<std::string>& names) {
-  const std::vector<const char*> columns = {"joints %", "p95 %",   "worst %", "weights", "posed %",
-                                            "parts",    "k-means", "random",  "J2J %",   "J2B %",
-                                            "B2B %",    "IoU",     "prec.",   "recall",  "seconds"};
+  const std::vector<const char*> columns = {"joints %", "p95 %",   "worst %", "turn",   "weights", "posed %",
+                                            "parts",    "k-means", "random",  "J2J %",  "J2B %",   "B2B %",
+                                            "IoU",      "prec.",   "recall",  "seconds"};
   std::printf("%-14s", "mesh");
   for (const char* column : columns) std::printf(" %8s", column);
   std::printf("\n");
   std::vector<double> joints, sums;
-  std::map<std::string, std::vector<double>> by_joint;
+  std::map<std::string, std::vector<double>> by_joint, turn_by_joint;
   for (const auto& name : names) {
     const Errors e = judge(model, set, name);
     const auto& s = e.skeleton;
-    const std::vector<double> rest = {e.weights,
+    const std::vector<double> rest = {e.turn,
+                                      e.weights,
                                       100 * e.posed,
                                       e.parts,
                                       e.k_means,
@@ -241,12 +257,15 @@ void judge_all(const std::shared_ptr<const LandmarkModel>& model, const Path& se
     sums.resize(rest.size());
     for (size_t i = 0; i < rest.size(); ++i) sums[i] += rest[i] / static_cast<double>(names.size());
     joints.insert(joints.end(), e.joints.begin(), e.joints.end());
+    for (const auto& [joint, values] : e.turn_by_joint)
+      turn_by_joint[joint].insert(turn_by_joint[joint].end(), values.begin(), values.end());
     for (const auto& [joint, values] : e.by_joint)
       by_joint[joint].insert(by_joint[joint].end(), values.begin(), values.end());
   }
   print_row("all", joints, sums);
   for (const auto& [joint, values] : by_joint)
-    std::printf("  %-16s %.2f\n", joint.c_str(), 100 * mean(values));
+    std::printf("  %-16s %.2f %%, turned by %.0f degrees\n", joint.c_str(), 100 * mean(values),
+                mean(turn_by_joint[joint]));
 }
 
 }  // namespace
