@@ -4,7 +4,10 @@
 set -eu
 packages="g++ cmake ninja-build pkgconf libeigen3-dev libspectra-dev libtinygltf-dev nlohmann-json3-dev
   libmeshoptimizer-dev libcli11-dev doctest-dev"
-[ "${1:-}" = ci ] && packages="$packages abigail-tools chromium clang-format-14 valgrind"
+if [ "${1:-}" = ci ]; then
+  packages="$packages abigail-tools chromium clang-format-14 valgrind"
+  command -v node > /dev/null || packages="$packages nodejs npm"
+fi
 
 if ! command -v dpkg-query > /dev/null; then
   # shellcheck disable=SC2086  # the packages are words
@@ -15,22 +18,37 @@ missing=
 for package in $packages; do
   dpkg-query -W -f '${db:Status-Status}\n' "$package" 2> /dev/null | grep -qx installed || missing="$missing $package"
 done
-if [ -z "$missing" ]; then
-  echo "bootstrap: all packages needed are installed"
-  exit 0
-fi
-
-as_root=
-if [ "$(id -u)" -ne 0 ]; then
-  if ! command -v sudo > /dev/null; then
-    echo "bootstrap: packages are missing and there is no sudo; as root run: apt-get install$missing" >&2
-    exit 1
+install_missing() {
+  if [ -z "$missing" ]; then
+    echo "bootstrap: all packages needed are installed"
+    return
   fi
-  as_root=sudo
-fi
-echo "bootstrap: installing$missing"
-# shellcheck disable=SC2086  # the packages are words
-{
-  $as_root apt-get -qq update
-  $as_root env DEBIAN_FRONTEND=noninteractive apt-get -qq install -y --no-install-recommends $missing > /dev/null
+  as_root=
+  if [ "$(id -u)" -ne 0 ]; then
+    if ! command -v sudo > /dev/null; then
+      echo "bootstrap: packages are missing and there is no sudo; as root run: apt-get install$missing" >&2
+      exit 1
+    fi
+    as_root=sudo
+  fi
+  echo "bootstrap: installing$missing"
+  # shellcheck disable=SC2086  # the packages are words
+  {
+    $as_root apt-get -qq update
+    $as_root env DEBIAN_FRONTEND=noninteractive apt-get -qq install -y --no-install-recommends $missing > /dev/null
+  }
 }
+install_missing
+
+# What tests/viewers judges files with; without it that test is skipped.
+install_viewers() {
+  tools=$(dirname "$0")/../build/tools wanted=$(dirname "$0")/../tests/viewers/package.json
+  [ -d "$tools/node_modules/three" ] && cmp -s "$wanted" "$tools/package.json" && return
+  mkdir -p "$tools"
+  cp "$wanted" "$tools/package.json"
+  echo "bootstrap: fetching gltf-validator and three through npm into build/tools"
+  npm install --prefix "$tools" --ignore-scripts --no-package-lock --no-audit --no-fund --loglevel=error \
+    --fetch-retries=1 --fetch-timeout=20000 > "$tools/npm.log" 2>&1 ||
+    echo "bootstrap: npm could not fetch them (see build/tools/npm.log); tests/viewers will be skipped"
+}
+if [ "${1:-}" = ci ] && command -v npm > /dev/null; then install_viewers; fi
