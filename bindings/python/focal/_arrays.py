@@ -57,6 +57,8 @@ def _flat_numpy(value: Any, name: str, code: str, width: int) -> Any:
         given = numpy.asarray(value)
     except ValueError as error:  # rows of different lengths
         raise ValueError(f"{name} must be rows of {width} numbers: {error}") from None
+    if given.ndim == 0:
+        raise TypeError(f"{name} must be a sequence or a buffer of numbers, not {type(value).__name__}")
     _check_shape(given.shape, name, width)
     if given.size and given.dtype.kind not in ("fiu" if code == "f" else "iu"):
         kind = "numbers" if code == "f" else "integers"

@@ -20,6 +20,7 @@ class Model(Handle):
     """Landmarks that were learned. It never changes; it can be pickled. It contains geometry of its training meshes."""
 
     _kind = "model"
+    _info: dict[str, Any] | None = None  # to count its bytes the library writes the whole model
 
     def __init__(self) -> None:
         raise TypeError("make a Model with Model.train, Model.load or Model.from_bytes")
@@ -98,9 +99,12 @@ class Model(Handle):
     def info(self) -> dict[str, Any]:
         """preset, landmark_count, shape_count (training meshes), mean_vertex_count, sample_count, tree_node_count,
         file_bytes."""
-        info = new(_abi.focal_model_info)
-        call("focal_model_get_info", self._handle, ctypes.byref(info))
-        return as_dict(info)
+        handle = self._handle
+        if self._info is None:
+            info = new(_abi.focal_model_info)
+            call("focal_model_get_info", handle, ctypes.byref(info))
+            self._info = as_dict(info)
+        return dict(self._info)
 
     @property
     def train_params(self) -> dict[str, Any]:
