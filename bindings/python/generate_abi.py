@@ -135,7 +135,7 @@ def arguments_of(text, known):
     kinds = []
     for one in text.split(","):
         kind = declarator(one, known)[1]
-        kinds.append(f"POINTER({kind.split(' * ')[0]})" if " * " in kind else kind)  # an array argument is a pointer
+        kinds.append(f"POINTER({kind.split(' * ')[0]})" if " * " in kind else kind)  # an array comes as a pointer
     return kinds
 
 
@@ -194,7 +194,7 @@ def class_name(typedef):
 
 
 def member_names(values):
-    """Without the words that all of them begin with: FOCAL_QUALITY_BEST -> BEST; FOCAL_ERROR_IO beside FOCAL_OK -> IO."""
+    """Without the words they all begin with: FOCAL_QUALITY_BEST -> BEST; FOCAL_ERROR_IO beside FOCAL_OK -> IO."""
     words = [name.split("_") for name, _ in values]
     shared = 0
     while all(len(one) > shared + 1 and one[shared] == words[0][shared] for one in words):
@@ -210,7 +210,7 @@ def listing(opening, items, closing):
         return [line]
     lines, line = [opening.rstrip()], "        "
     for item in items:
-        if len(line) + len(item) + 2 > WIDTH:
+        if len(line) + len(item) + len(closing) > WIDTH:
             lines.append(line.rstrip())
             line = "        "
         line += item + ", "
@@ -246,7 +246,7 @@ def generate(header_text):
     out = parse(header_text)
     body = write_types(out) + write_functions(out)
     names = ["CFUNCTYPE", "POINTER", "Structure"] + sorted(set(re.findall(r"\bc_\w+", "\n".join(body))))
-    head = ['"""The declarations of focal.h for ctypes. Made by generate_abi.py: change the header, then run it again."""']
+    head = ['"""The declarations of focal.h for ctypes. Made by generate_abi.py: change the header, run it again."""']
     head += listing("from ctypes import (", names, ")") + ["from enum import IntEnum", ""]
     return "\n".join(head + body)
 

@@ -24,7 +24,7 @@ class Loading(Case):
     def copied(self, with_library=True):
         """A copy of the package in a folder of its own."""
         folder = pathlib.Path(self.folder())
-        shutil.copytree(PACKAGE, folder / "focal", ignore=None if with_library else lambda path, names: {"lib"} & {*names})
+        shutil.copytree(PACKAGE, folder / "focal", ignore=None if with_library else shutil.ignore_patterns("lib"))
         return folder
 
     def python(self, folder, code=TELL, **environment):

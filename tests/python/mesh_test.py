@@ -1,4 +1,4 @@
-"""Meshes from arrays of every kind, from files and from memory; what is no mesh is refused before the library is called."""
+"""Meshes from arrays of every kind, from files and from memory; what is no mesh by its type or shape stays outside."""
 import array
 import decimal
 import pathlib

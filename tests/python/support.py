@@ -90,8 +90,9 @@ def glb(vertices, faces):
     """The bytes of a .glb with these triangles."""
     positions = b"".join(struct.pack("<3f", *vertex) for vertex in vertices)
     indices = b"".join(struct.pack("<3I", *face) for face in faces)
-    text = ('{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":'
-            '[{"attributes":{"POSITION":0},"indices":1}]}],"buffers":[{"byteLength":%d}],"bufferViews":[{"buffer":0,'
+    text = ('{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{'
+            '"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],'
+            '"buffers":[{"byteLength":%d}],"bufferViews":[{"buffer":0,'
             '"byteLength":%d},{"buffer":0,"byteOffset":%d,"byteLength":%d}],"accessors":[{"bufferView":0,'
             '"componentType":5126,"count":%d,"type":"VEC3","min":[-9,-9,-9],"max":[9,9,9]},{"bufferView":1,'
             '"componentType":5125,"count":%d,"type":"SCALAR"}]}' %

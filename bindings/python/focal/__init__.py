@@ -30,3 +30,8 @@ __all__ = [
     "Quality", "Segmentation", "Skeleton", "Status", "SurfacePoint", "Task", "TrainingSet", "load_library",
     "peak_memory_bytes", "version",
 ]
+
+for _name in __all__:  # shown, and pickled, by the name that users know
+    if isinstance(globals()[_name], type):
+        globals()[_name].__module__ = "focal"
+del _name

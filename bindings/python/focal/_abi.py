@@ -1,4 +1,4 @@
-"""The declarations of focal.h for ctypes. Made by generate_abi.py: change the header, then run it again."""
+"""The declarations of focal.h for ctypes. Made by generate_abi.py: change the header, run it again."""
 from ctypes import (
         CFUNCTYPE, POINTER, Structure, c_char_p, c_double, c_float, c_int32, c_int64, c_size_t, c_uint32, c_uint64,
         c_void_p)
@@ -348,7 +348,8 @@ FUNCTIONS = {
     "focal_train_params_init": (c_int32, [POINTER(focal_train_params), c_size_t]),
     "focal_train_params_set_preset": (c_int32, [POINTER(focal_train_params), c_int32]),
     "focal_model_train": (c_int32, [
-        POINTER(focal_training_set), POINTER(focal_train_params), POINTER(focal_task), POINTER(POINTER(focal_model))]),
+        POINTER(focal_training_set), POINTER(focal_train_params), POINTER(focal_task),
+        POINTER(POINTER(focal_model))]),
     "focal_model_load": (c_int32, [POINTER(focal_context), c_char_p, POINTER(POINTER(focal_model))]),
     "focal_model_load_memory": (c_int32, [POINTER(focal_context), c_void_p, c_uint64, POINTER(POINTER(focal_model))]),
     "focal_model_save": (c_int32, [POINTER(focal_model), c_char_p]),

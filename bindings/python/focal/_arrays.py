@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import array
 import ctypes
+import operator
 from typing import Any, NamedTuple
 
 try:
@@ -15,7 +16,7 @@ try:
 except ImportError:
     numpy = None  # type: ignore[assignment]
 
-_TYPES = {"f": ctypes.c_float, "I": ctypes.c_uint32, "i": ctypes.c_int32}
+_TYPES: dict[str, Any] = {"f": ctypes.c_float, "I": ctypes.c_uint32, "i": ctypes.c_int32}
 _INTEGERS = "bBhHiIlLqQnN"
 
 
@@ -77,7 +78,7 @@ def _flat_plain(value: Any, name: str, code: str, width: int) -> array.array:
     if isinstance(numbers, array.array):
         return numbers
     try:
-        return array.array(code, numbers)
+        return array.array(code, numbers if code == "f" else map(operator.index, numbers))
     except OverflowError:
         raise ValueError(f"{name} must lie within 0..4294967295") from None
     except TypeError:
@@ -85,7 +86,7 @@ def _flat_plain(value: Any, name: str, code: str, width: int) -> array.array:
 
 
 def _flat_buffer(view: memoryview, name: str, code: str, width: int) -> Any:
-    _check_shape(view.shape, name, width)
+    _check_shape(view.shape or (), name, width)
     kind = view.format.lstrip("@=<")
     if kind not in (_INTEGERS + "fd" if code == "f" else _INTEGERS):
         return [None]  # refused by its caller as no numbers
@@ -93,7 +94,7 @@ def _flat_buffer(view: memoryview, name: str, code: str, width: int) -> Any:
         flat = array.array(code)
         flat.frombytes(view.tobytes())
         return flat
-    numbers = view.tolist()
+    numbers: Any = view.tolist()
     return numbers if view.ndim == 1 else [number for row in numbers for number in row]
 
 

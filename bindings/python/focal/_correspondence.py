@@ -21,10 +21,10 @@ class Correspondence(Handle):
 
     @property
     def points(self) -> tuple[Any, Any]:
-        """(triangles, barycentric): (n,) triangle numbers of the target, NO_TRIANGLE where no triangle uses the source's
-        vertex, and (n, 3) weights of their corners."""
+        """(triangles, barycentric): (n,) triangle numbers of the target, NO_TRIANGLE where no triangle uses the
+        source's vertex, and (n, 3) weights of their corners."""
         count = self._counts[0]
-        room = (_abi.focal_surface_point * count)()
+        room: Any = (_abi.focal_surface_point * count)()
         call("focal_correspondence_points", self._handle, count, room)
         if numpy is not None:
             rows = numpy.frombuffer(room, numpy.dtype([("triangle", numpy.uint32), ("weights", numpy.float32, 3)]))

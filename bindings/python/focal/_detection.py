@@ -15,7 +15,7 @@ from ._library import call, create, library
 from ._mesh import Mesh
 from ._skeleton import Skeleton, skeleton_params
 from ._task import Progress, Task, run
-from ._values import SurfacePoint, as_dict, choice, new, path_text, point_of, real
+from ._values import SurfacePoint, as_dict, choice, floats, new, path_text, point_of, real
 
 
 @dataclass(frozen=True)
@@ -63,10 +63,10 @@ def _landmark_of(struct: _abi.focal_landmark) -> Landmark:
     point, runner_up = point_of(struct.point), point_of(struct.runner_up_point)
     second = None
     if struct.has_runner_up and runner_up:
-        second = Place(runner_up, tuple(struct.runner_up_position), struct.runner_up_vertex,
+        second = Place(runner_up, floats(struct.runner_up_position), struct.runner_up_vertex,
                        struct.runner_up_confidence)
     return Landmark(struct.name.decode("utf-8", "replace"), _abi.LandmarkStatus(struct.status), struct.confidence,
-                    struct.expected_error, point, tuple(struct.position) if point else None,
+                    struct.expected_error, point, floats(struct.position) if point else None,
                     struct.vertex if point else None, second)
 
 

@@ -87,7 +87,7 @@ class Handle:
         return f"<focal.{type(self).__name__}{' closed' if self.closed else ''}>"
 
 
-def handle_of(value: Any, kind: type, name: str) -> Any:
+def handle_of(value: Any, kind: type[Handle], name: str) -> Any:
     """The handle of an argument, which must be a `kind`."""
     if not isinstance(value, kind):
         raise TypeError(f"{name} must be a focal.{kind.__name__}, not {type(value).__name__}")

@@ -12,6 +12,7 @@ import os
 import pathlib
 import sys
 import threading
+from typing import Any
 
 from . import _abi
 from ._errors import LibraryError, error_of
@@ -48,7 +49,8 @@ def _find() -> str:
         return found
     raise LibraryError(
         f"focal's shared library ({file_names()[0]}) was not found.\n"
-        f"Searched: FOCAL_LIBRARY (not set), {package / 'lib'}, {package}, {package.parent}, the system's libraries.\n"
+        f"Searched: FOCAL_LIBRARY (not set), {package / 'lib'}, {package}, {package.parent}, the system's "
+        "libraries.\n"
         "Build the package with its library (cmake --build build/release --target focal_python_package), install "
         "focal, or set FOCAL_LIBRARY to the full path of the library.")
 
@@ -73,7 +75,7 @@ def _open(path: str) -> ctypes.CDLL:
         library = ctypes.CDLL(path)
     except OSError as error:
         raise LibraryError(f"focal's shared library {path} cannot be loaded: {error}\n"
-                           "Is it for this system and processor, and are the libraries beside it complete?") from error
+                           "Is it for this system and processor, and are the libraries beside it there?") from error
     _check_version(library, path)
     for name, (result, arguments) in _abi.FUNCTIONS.items():
         try:
@@ -122,7 +124,7 @@ def call(name: str, *arguments) -> None:
 
 def create(name: str, kind: type, *arguments):
     """Calls a function whose last argument receives a handle; gives the handle."""
-    out = ctypes.POINTER(kind)()
+    out: Any = ctypes.POINTER(kind)()
     call(name, *arguments, ctypes.byref(out))
     return out
 

@@ -11,7 +11,7 @@ from . import _abi
 from ._arrays import empty, result
 from ._handle import Handle
 from ._library import call
-from ._values import as_dict, choice, fill, new, path_text, text
+from ._values import as_dict, choice, fill, floats, new, path_text, text
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ class Skeleton(Handle):
             for index in range(count):
                 call("focal_skeleton_get_joint", handle, index, ctypes.byref(struct))
                 found.append(Joint(struct.name.decode("utf-8", "replace"), struct.parent, struct.confidence,
-                                   tuple(struct.position), tuple(struct.rotation), tuple(struct.tip)))
+                                   floats(struct.position), floats(struct.rotation), floats(struct.tip)))
         return found
 
     @property

@@ -60,7 +60,8 @@ class TrainingSet(Handle):
         if all(mark is None or _is_number(mark) for mark in ordered):
             numbers = [NO_VERTEX if mark is None else integer(mark, "a vertex number", ctypes.c_uint32)
                        for mark in ordered]
-            add, block = "focal_training_set_add_vertices", (ctypes.c_uint32 * len(numbers))(*numbers)
+            add = "focal_training_set_add_vertices"
+            block: Any = (ctypes.c_uint32 * len(numbers))(*numbers)
         else:
             points = [self._point(mesh, mark, name) for mark, name in zip(ordered, self._names)]
             add, block = "focal_training_set_add", (_abi.focal_surface_point * len(points))(*points)

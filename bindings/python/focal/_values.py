@@ -43,7 +43,7 @@ def path_text(value: Any) -> bytes:
     return text(os.fsdecode(value), "path")
 
 
-def integer(value: Any, name: str, kind: type = ctypes.c_int32) -> int:
+def integer(value: Any, name: str, kind: Any = ctypes.c_int32) -> int:
     """ctypes would wrap a number that does not fit."""
     try:
         number = operator.index(value)
@@ -99,10 +99,15 @@ def fill(struct: Any, **fields: Any) -> Any:
     return struct
 
 
+def floats(values: Any) -> Any:
+    """A float[n] field as a tuple."""
+    return tuple(values)
+
+
 def point_of(struct: _abi.focal_surface_point) -> SurfacePoint | None:
     if struct.triangle == _abi.FOCAL_NO_TRIANGLE:
         return None
-    return SurfacePoint(struct.triangle, tuple(struct.barycentric))
+    return SurfacePoint(struct.triangle, floats(struct.barycentric))
 
 
 def as_dict(struct: Any) -> dict[str, Any]:
