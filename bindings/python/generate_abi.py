@@ -101,7 +101,7 @@ def type_of(spelling, known):
     else:
         raise HeaderError(f"unknown type {spelling!r}")
     for _ in range(stars):
-        result = f"POINTER({result})"
+        result = f"P({result})"
     return result
 
 
@@ -135,7 +135,7 @@ def arguments_of(text, known):
     kinds = []
     for one in text.split(","):
         kind = declarator(one, known)[1]
-        kinds.append(f"POINTER({kind.split(' * ')[0]})" if " * " in kind else kind)  # an array comes as a pointer
+        kinds.append(f"P({kind.split(' * ')[0]})" if " * " in kind else kind)  # an array comes as a pointer
     return kinds
 
 
@@ -245,9 +245,10 @@ def write_functions(out):
 def generate(header_text):
     out = parse(header_text)
     body = write_types(out) + write_functions(out)
-    names = ["CFUNCTYPE", "POINTER", "Structure"] + sorted(set(re.findall(r"\bc_\w+", "\n".join(body))))
+    names = ["CFUNCTYPE", "Structure"] + sorted(set(re.findall(r"\bc_\w+", "\n".join(body))))
     head = ['"""The declarations of focal.h for ctypes. Made by generate_abi.py: change the header, run it again."""']
-    head += listing("from ctypes import (", names, ")") + ["from enum import IntEnum", ""]
+    head += listing("from ctypes import (", names, ")")
+    head += ["from ctypes import POINTER as P", "from enum import IntEnum", ""]
     return "\n".join(head + body)
 
 
