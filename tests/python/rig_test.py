@@ -104,8 +104,16 @@ class Rigs(Case):
         self.refused(Status.FILE_NOT_FOUND, "", skeleton.write, folder / "none" / "rigged.glb")
 
     def test_animations(self):
-        still = focal.Mesh.load(HUMANOIDS / "humanoid_00.rig.glb")
-        self.assertIn("the character has no animations", found().rig(animations=still).warnings)
+        folder, character = pathlib.Path(self.folder()), HUMANOIDS / "humanoid_00.rig.glb"
+        names = [animation["name"] for animation in gltf(character)["animations"]]
+        found().rig(animations=focal.Mesh.load(character)).write(folder / "dancing.glb")
+        self.assertEqual([one["name"] for one in gltf(folder / "dancing.glb")["animations"]], names)
+        posed = focal.Mesh.load(folder / "dancing.glb", pose_animation=names[0], pose_time=0.5)
+        self.assertEqual(posed.triangle_count, found().info["triangle_count"])
+        self.assertNotEqual(rows(posed.vertices), rows(focal.Mesh.load(HUMANOIDS / "humanoid_01.glb").vertices))
+        found().rig().write(folder / "still.glb")
+        still = found().rig(animations=focal.Mesh.load(folder / "still.glb"))
+        self.assertIn("the character has no animations", still.warnings)
         self.refused(Status.INVALID_ARGUMENT, "no skin", found().rig,
                      animations=focal.Mesh.load(HUMANOIDS / "humanoid_00.glb"))
         with self.assertRaisesRegex(TypeError, "animations must be a focal.Mesh"):
