@@ -1,0 +1,231 @@
+"""Landmarks found on one mesh, and what follows from them."""
+from __future__ import annotations
+
+import ctypes
+import operator
+import os
+from dataclasses import dataclass
+from typing import Any, Iterator, Mapping, Sequence
+
+from . import _abi
+from ._arrays import empty, result
+from ._correspondence import Correspondence
+from ._handle import Handle, handle_of
+from ._library import call, create, library
+from ._mesh import Mesh
+from ._skeleton import Skeleton, skeleton_params
+from ._task import Progress, Task, run
+from ._values import SurfacePoint, as_dict, choice, floats, new, path_text, point_of, real
+
+
+@dataclass(frozen=True)
+class Place:
+    """A place on the mesh."""
+
+    point: SurfacePoint
+    position: tuple[float, float, float]
+    vertex: int        # the mesh's vertex nearest to it
+    confidence: float  # as Landmark's
+
+
+@dataclass(frozen=True)
+class Landmark:
+    """One landmark of a Detection. point, position and vertex are None when it has no place at all."""
+
+    name: str
+    status: _abi.LandmarkStatus  # FOUND, UNCERTAIN, ABSENT
+    confidence: float            # probability of lying within 4 % of sqrt(surface area) of the truth
+    expected_error: float        # a length, in the mesh's units
+    point: SurfacePoint | None
+    position: tuple[float, float, float] | None
+    vertex: int | None           # the mesh's vertex nearest to it
+    runner_up: Place | None      # the second-best place, when there is one
+
+    @property
+    def triangle(self) -> int | None:
+        return self.point.triangle if self.point else None
+
+    @property
+    def barycentric(self) -> tuple[float, float, float] | None:
+        """Weights of the triangle's three corners, >= 0, sum 1."""
+        return self.point.barycentric if self.point else None
+
+    @property
+    def found(self) -> bool:
+        return self.status == _abi.LandmarkStatus.FOUND
+
+    @property
+    def absent(self) -> bool:
+        return self.status == _abi.LandmarkStatus.ABSENT
+
+
+def _landmark_of(struct: _abi.focal_landmark) -> Landmark:
+    point, runner_up = point_of(struct.point), point_of(struct.runner_up_point)
+    second = None
+    if struct.has_runner_up and runner_up:
+        second = Place(runner_up, floats(struct.runner_up_position), struct.runner_up_vertex,
+                       struct.runner_up_confidence)
+    return Landmark(struct.name.decode("utf-8", "replace"), _abi.LandmarkStatus(struct.status), struct.confidence,
+                    struct.expected_error, point, floats(struct.position) if point else None,
+                    struct.vertex if point else None, second)
+
+
+class Detection(Handle):
+    """The landmarks that a Model found on a Mesh, in the order of the model's names. It never changes.
+
+        for landmark in detection: print(landmark.name, landmark.position, landmark.confidence)
+        detection["nose"].triangle
+    """
+
+    _kind = "detection"
+    _joint_names: list[str] = []
+
+    def __init__(self) -> None:
+        raise TypeError("make a Detection with Model.detect")
+
+    @property
+    def landmarks(self) -> list[Landmark]:
+        struct, found = new(_abi.focal_landmark), []
+        with self._borrow() as handle:
+            for index in range(library().focal_detection_landmark_count(handle)):
+                call("focal_detection_get_landmark", handle, index, ctypes.byref(struct))
+                found.append(_landmark_of(struct))
+        return found
+
+    def __iter__(self) -> Iterator[Landmark]:
+        return iter(self.landmarks)
+
+    def __len__(self) -> int:
+        return self.info["landmark_count"]
+
+    def __getitem__(self, which: str | int) -> Landmark:
+        """By name or number. KeyError, IndexError."""
+        landmarks = self.landmarks
+        return landmarks[self._index(which, landmarks)]
+
+    def _index(self, which: str | int, landmarks: list[Landmark] | None = None) -> int:
+        landmarks = self.landmarks if landmarks is None else landmarks
+        if isinstance(which, str):
+            for index, landmark in enumerate(landmarks):
+                if landmark.name == which:
+                    return index
+            raise KeyError(which)
+        try:
+            number = operator.index(which)
+        except TypeError:
+            raise TypeError(f"a landmark is told by name or number, not {type(which).__name__}") from None
+        if not -len(landmarks) <= number < len(landmarks):
+            raise IndexError(f"there are {len(landmarks)} landmarks, there is no number {number}")
+        return number % len(landmarks)
+
+    @property
+    def info(self) -> dict[str, Any]:
+        """landmark_count, warning_count, has_votes, vertex_count, triangle_count, category_fit, backend."""
+        info = new(_abi.focal_detection_info)
+        call("focal_detection_get_info", self._handle, ctypes.byref(info))
+        return as_dict(info)
+
+    @property
+    def category_fit(self) -> float:
+        """0..1: does this mesh belong to the model's category at all."""
+        return self.info["category_fit"]
+
+    @property
+    def seconds(self) -> dict[str, float]:
+        """Wall time of each stage; "total": all of them and what lies between."""
+        seconds = new(_abi.focal_stage_seconds)
+        call("focal_detection_get_seconds", self._handle, ctypes.byref(seconds))
+        return as_dict(seconds)
+
+    @property
+    def warnings(self) -> list[str]:
+        """Plain sentences, the mesh's own first."""
+        return self._texts("focal_detection_warning", self.info["warning_count"])
+
+    def votes(self, landmark: str | int) -> Any:
+        """(vertex_count,) floats in 0..1: the vote map of one landmark. Error with Status.UNSUPPORTED when votes were
+        not kept."""
+        return self._per_vertex("focal_detection_votes", landmark)
+
+    def distances(self, landmark: str | int) -> Any:
+        """(vertex_count,) floats: distances along the surface from the landmark, in the mesh's units; infinite where
+        no way leads. Error with Status.INVALID_LANDMARK when it has no place at all."""
+        return self._per_vertex("focal_detection_distances", landmark)
+
+    def region(self, landmark: str | int, radius: float) -> Any:
+        """(vertex_count,) floats: 1 within `radius` of the landmark along the surface, 0 outside, in between at its
+        border. radius is a share of sqrt(surface area), so one number means the same region on every mesh."""
+        return self._per_vertex("focal_detection_region", landmark, real(radius, "radius"))
+
+    def _per_vertex(self, getter: str, landmark: str | int, *arguments: Any) -> Any:
+        room = empty("f", self.info["vertex_count"])
+        call(getter, self._handle, self._index(landmark), *arguments, room.rows, room.pointer)
+        return result(room.owner)
+
+    def segment(self, method: _abi.Segmentation | str = "auto", *, task: Task | None = None,
+                on_progress: Progress | None = None) -> Any:
+        """(triangle_count,) labels, -1 where there is none.
+
+        method  "skeleton": the joint that moves a triangle most (numbers of Model.joint_names); "geodesic": the
+                landmark nearest along the surface (numbers of landmarks); "k_means": clusters that start at the
+                landmarks; "auto": skeleton where the model has one, else geodesic
+        """
+        chosen, room = choice(_abi.Segmentation, method, "method"), empty("i", self.info["triangle_count"])
+        handle = self._handle
+        run(lambda task_handle: call("focal_detection_segment", handle, chosen, task_handle, room.rows, room.pointer),
+            task, on_progress)
+        return result(room.owner)
+
+    def correspond(self, target: Detection, *, task: Task | None = None,
+                   on_progress: Progress | None = None) -> Correspondence:
+        """A point of the target's mesh for every vertex of this one's; both detected with the same model. About a
+        second. Error: INVALID_ARGUMENT (different models; fewer than three landmarks found on both); Cancelled."""
+        handle, other = self._handle, handle_of(target, Detection, "target")
+        counts = self.info["vertex_count"], target.info["vertex_count"]
+
+        def correspond(task_handle: Any) -> Correspondence:
+            found = Correspondence._adopt(create("focal_correspondence_create", _abi.focal_correspondence, handle,
+                                                 other, task_handle), self._context)
+            found._counts = counts
+            return found
+
+        return run(correspond, task, on_progress)
+
+    def rig(self, *, names: _abi.BoneNames | str | None = None,
+            joint_names: Sequence[str | None] | Mapping[str, str] | None = None, animations: Mesh | None = None,
+            rest_pose: bool | None = None, symmetric: bool | None = None,
+            skeleton_template: str | Mapping[str, Any] | None = None, task: Task | None = None,
+            on_progress: Progress | None = None) -> Skeleton:
+        """Joints and skin weights for this mesh, in the pose that it has. About a second.
+
+        names              "as_trained" (default), "vrm", "mixamo", "unreal", "rigify", "unity"
+        joint_names        names of your own: {name in the model: yours}, or one (or None) for each joint in order
+        animations         a rigged character, loaded from glTF, whose animations Skeleton.write puts in
+        rest_pose          the file shows the character in the rest pose of those that taught the model
+        symmetric          bones of the left and right side get the same length
+        skeleton_template  a skeleton of your own over the landmarks, as JSON text or as a mapping
+
+        Error: INVALID_ARGUMENT (no template, and the model was not learned of rigged characters; fewer than three
+        landmarks found), INVALID_FILE (the template is no JSON); Cancelled.
+        """
+        character = None if animations is None else handle_of(animations, Mesh, "animations")
+        params = skeleton_params(self._joint_names, names=names, joint_names=joint_names, animations=character,
+                                 rest_pose=rest_pose, symmetric=symmetric, skeleton_template=skeleton_template)
+        handle = self._handle
+        return run(lambda task_handle: Skeleton._adopt(
+            create("focal_skeleton_create", _abi.focal_skeleton, handle, ctypes.byref(params), task_handle),
+            self._context), task, on_progress)
+
+    def write(self, path: str | os.PathLike[str]) -> None:
+        """Writes the mesh's own glTF, nothing lost, with a node for each landmark that is not absent; a mesh that has
+        no file as a plain .glb. Error: INVALID_ARGUMENT (the suffix of the other kind of glTF), IO, FILE_NOT_FOUND."""
+        call("focal_detection_write_gltf", self._handle, path_text(path))
+
+    def write_votes(self, path: str | os.PathLike[str]) -> None:
+        """Writes a .glb with the vote maps as vertex colours. Error: UNSUPPORTED when votes were not kept."""
+        call("focal_detection_write_votes_gltf", self._handle, path_text(path))
+
+    def write_segments(self, path: str | os.PathLike[str], method: _abi.Segmentation | str = "auto") -> None:
+        """Writes a .glb with the parts as vertex colours. method: as in segment()."""
+        call("focal_detection_write_segments_gltf", self._handle, choice(_abi.Segmentation, method, "method"),
+             path_text(path))

@@ -1,0 +1,171 @@
+"""Surfaces to learn from and to look at."""
+from __future__ import annotations
+
+import ctypes
+import os
+from typing import Any
+
+from . import _abi
+from ._arrays import block_of, copied
+from ._context import Context, context_or_default
+from ._handle import Handle
+from ._library import call, create, last_error, library
+from ._values import SurfacePoint, as_dict, fill, integer, new, path_text, point_of, real
+
+NO_VERTEX = _abi.FOCAL_NO_VERTEX
+NO_TRIANGLE = _abi.FOCAL_NO_TRIANGLE
+
+
+class Mesh(Handle):
+    """A surface of triangles, ready to be analysed. It never changes.
+
+    vertices  (n, 3) numbers, in units of your own; kept as 32-bit floats
+    faces     (m, 3) vertex numbers from 0, counter-clockwise seen from outside
+    weld               merge vertices of exactly equal position. Default True
+    drop_degenerate    drop triangles with a repeated corner and repeated triangles. Default True
+    bridge_components  link the parts of a many-part character for the analysis. Default True
+    max_vertices, max_triangles  larger meshes are refused. Defaults 5,000,000 and 10,000,000
+
+    Blocks of numbers may be NumPy arrays, anything NumPy takes, buffers such as array.array, or sequences; flat ones
+    are read three numbers at a time. Raises TypeError and ValueError for what is no such block; Error with
+    Status.INVALID_MESH (no triangles, a vertex number out of range, NaN) or MESH_TOO_SMALL.
+
+    Vertex and triangle numbers in all results are those given here.
+    """
+
+    _kind = "mesh"
+
+    def __init__(self, vertices: Any, faces: Any, *, weld: bool | None = None, drop_degenerate: bool | None = None,
+                 bridge_components: bool | None = None, max_vertices: int | None = None,
+                 max_triangles: int | None = None, context: Context | None = None) -> None:
+        positions = block_of(vertices, "vertices", "f", 3)
+        indices = block_of(faces, "faces", "I", 3)
+        running = context_or_default(context)
+        desc = new(_abi.focal_mesh_desc)
+        desc.positions, desc.vertex_count = positions.pointer, positions.rows
+        desc.indices, desc.index_count = indices.pointer, 3 * indices.rows
+        params = fill(new(_abi.focal_mesh_params), weld=weld, drop_degenerate=drop_degenerate,
+                      bridge_components=bridge_components, max_vertices=max_vertices, max_triangles=max_triangles)
+        self._take(create("focal_mesh_create", _abi.focal_mesh, running._handle, ctypes.byref(desc),
+                          ctypes.byref(params)), running)
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str], *, weld: bool | None = None, drop_degenerate: bool | None = None,
+             bridge_components: bool | None = None, allow_external_files: bool | None = None,
+             keep_source_file: bool | None = None, max_vertices: int | None = None,
+             max_triangles: int | None = None, max_nodes: int | None = None, max_json_bytes: int | None = None,
+             max_file_bytes: int | None = None, pose_animation: str | None = None, pose_time: float | None = None,
+             context: Context | None = None) -> Mesh:
+        """A glTF scene (.glb or .gltf) as one mesh, node transforms applied, skins at bind pose.
+
+        allow_external_files  also read .bin files beside a .gltf, inside its folder only. Default False
+        keep_source_file      keep the file's bytes, so that results can be written into it. Default True
+        max_nodes, max_json_bytes, max_file_bytes  larger files are refused. Defaults 1,000,000, 64 MiB, 2 GiB
+        pose_animation, pose_time  the name of an animation, and seconds: skinned meshes come in that pose. Such a
+                                   mesh keeps no file
+
+        Error: FILE_NOT_FOUND, IO, INVALID_FILE, UNSUPPORTED, and those of Mesh.
+        """
+        params = fill(new(_abi.focal_mesh_params), weld=weld, drop_degenerate=drop_degenerate,
+                      bridge_components=bridge_components, allow_external_files=allow_external_files,
+                      keep_source_file=keep_source_file, max_vertices=max_vertices, max_triangles=max_triangles,
+                      max_nodes=max_nodes, max_json_bytes=max_json_bytes, max_file_bytes=max_file_bytes,
+                      pose_animation=pose_animation, pose_time=pose_time)
+        file, running = path_text(path), context_or_default(context)
+        return cls._adopt(create("focal_mesh_load_gltf", _abi.focal_mesh, running._handle, file,
+                                 ctypes.byref(params)), running)
+
+    @classmethod
+    def from_bytes(cls, data: Any, *, weld: bool | None = None, drop_degenerate: bool | None = None,
+                   bridge_components: bool | None = None, keep_source_file: bool | None = None,
+                   max_vertices: int | None = None, max_triangles: int | None = None, max_nodes: int | None = None,
+                   max_json_bytes: int | None = None, max_file_bytes: int | None = None,
+                   pose_animation: str | None = None, pose_time: float | None = None,
+                   context: Context | None = None) -> Mesh:
+        """The same from the bytes of a file (bytes-like); external files are refused."""
+        params = fill(new(_abi.focal_mesh_params), weld=weld, drop_degenerate=drop_degenerate,
+                      bridge_components=bridge_components, keep_source_file=keep_source_file,
+                      max_vertices=max_vertices, max_triangles=max_triangles, max_nodes=max_nodes,
+                      max_json_bytes=max_json_bytes, max_file_bytes=max_file_bytes, pose_animation=pose_animation,
+                      pose_time=pose_time)
+        memory, running = bytes_of(data), context_or_default(context)
+        return cls._adopt(create("focal_mesh_load_gltf_memory", _abi.focal_mesh, running._handle, memory, len(memory),
+                                 ctypes.byref(params)), running)
+
+    @property
+    def info(self) -> dict[str, Any]:
+        """All that the library tells in numbers: counts of the mesh and of the surface that is analysed
+        (surface_vertex_count, ...), mean_edge_length, surface_area, load_seconds, repair_seconds."""
+        info = new(_abi.focal_mesh_info)
+        call("focal_mesh_get_info", self._handle, ctypes.byref(info))
+        return as_dict(info)
+
+    @property
+    def vertex_count(self) -> int:
+        return self.info["vertex_count"]
+
+    @property
+    def triangle_count(self) -> int:
+        return self.info["triangle_count"]
+
+    @property
+    def surface_area(self) -> float:
+        """In the square of the mesh's units."""
+        return self.info["surface_area"]
+
+    @property
+    def vertices(self) -> Any:
+        """(vertex_count, 3) floats, a copy."""
+        return self._copied("focal_mesh_positions", "f", self.vertex_count)
+
+    @property
+    def faces(self) -> Any:
+        """(triangle_count, 3) vertex numbers, a copy."""
+        return self._copied("focal_mesh_triangles", "I", self.triangle_count)
+
+    def _copied(self, getter: str, code: str, count: int) -> Any:
+        with self._borrow() as handle:
+            pointer = getattr(library(), getter)(handle)
+            if not pointer:
+                raise last_error(_abi.Status.INVALID_HANDLE)
+            return copied(pointer, code, count, 3)
+
+    @property
+    def warnings(self) -> list[str]:
+        """Plain sentences on what was found and done."""
+        return self._texts("focal_mesh_warning", self.info["warning_count"])
+
+    def position_of(self, point: SurfacePoint) -> tuple[float, float, float]:
+        """Where a surface point lies. Error with Status.INVALID_LANDMARK when its triangle does not exist."""
+        given, position = surface_point(point, "point"), (ctypes.c_float * 3)()
+        call("focal_mesh_position_of", self._handle, ctypes.byref(given), position)
+        return tuple(position)  # type: ignore[return-value]
+
+    def point_at_vertex(self, vertex: int) -> SurfacePoint:
+        """The surface point at a vertex. Error with Status.INVALID_LANDMARK when no triangle uses it."""
+        out = _abi.focal_surface_point()
+        number = integer(vertex, "vertex", ctypes.c_uint32)
+        call("focal_mesh_point_at_vertex", self._handle, number, ctypes.byref(out))
+        return point_of(out)  # type: ignore[return-value]
+
+
+def bytes_of(data: Any) -> bytes:
+    if isinstance(data, str):
+        raise TypeError("data must be bytes-like, not str")
+    try:
+        return data if isinstance(data, bytes) else memoryview(data).tobytes()
+    except TypeError:
+        raise TypeError(f"data must be bytes-like, not {type(data).__name__}") from None
+
+
+def surface_point(value: Any, name: str) -> _abi.focal_surface_point:
+    """From a SurfacePoint, or (triangle, (a, b, c))."""
+    try:
+        triangle, weights = value
+        weights = list(weights)
+    except (TypeError, ValueError):
+        raise TypeError(f"{name} must be a focal.SurfacePoint, not {value!r:.60}") from None
+    if len(weights) != 3:
+        raise ValueError(f"{name} must have three barycentric weights, not {len(weights)}")
+    number = integer(triangle, f"the triangle of {name}", ctypes.c_uint32)
+    return _abi.focal_surface_point(number, (ctypes.c_float * 3)(*(real(w, f"weights of {name}") for w in weights)))

@@ -1,0 +1,194 @@
+"""What training makes, and what it finds."""
+from __future__ import annotations
+
+import ctypes
+import os
+from typing import Any
+
+from . import _abi
+from ._context import Context, context_or_default
+from ._detection import Detection
+from ._handle import Handle, handle_of
+from ._library import call, create, library
+from ._mesh import Mesh, bytes_of
+from ._task import Progress, Task, run
+from ._training_set import TrainingSet
+from ._values import as_dict, choice, fill, new, path_text
+
+
+class Model(Handle):
+    """Landmarks that were learned. It never changes; it can be pickled. It contains geometry of its training meshes."""
+
+    _kind = "model"
+    _info: dict[str, Any] | None = None  # to count its bytes the library writes the whole model
+
+    def __init__(self) -> None:
+        raise TypeError("make a Model with Model.train, Model.load or Model.from_bytes")
+
+    @classmethod
+    def train(cls, training_set: TrainingSet, *, preset: _abi.Preset | str | None = None,
+              eigenpair_count: int | None = None, tree_count: int | None = None, min_leaf_samples: int | None = None,
+              components_per_split: int | None = None, sampling_rate: float | None = None,
+              max_samples_per_shape: int | None = None, proxy_vertices: int | None = None, seed: int | None = None,
+              learn_confidence: bool | None = None, rigged_shapes: int | None = None, task: Task | None = None,
+              on_progress: Progress | None = None) -> Model:
+        """Learns a model; seconds to minutes.
+
+        preset                 "default", or "paper": Xia et al. 2016 to the letter
+        eigenpair_count        of the Laplacian, 8..2000. Default 128 (paper: 200)
+        tree_count             1..10000. Default 30
+        min_leaf_samples       1 or more. Default 5
+        components_per_split   1 or more. Default 5
+        sampling_rate          of the vertices analysed, above 0 to 1. Default 1
+        max_samples_per_shape  1 or more. Default 6250
+        proxy_vertices         meshes with more are analysed on a copy of so many; 0: as they are. Default 3500
+        seed                   same seed, same model. Default 0
+        learn_confidence       takes two thirds of the time; without it every confidence is about a half. Default True
+        rigged_shapes          learned of rigged characters in all, posed copies included. Default 16
+        task, on_progress      see focal.Task; on_progress(progress in 0..1, stage: str) is called on this thread,
+                               about twenty times a second; what it raises cancels the training and is raised here
+
+        Error: TOO_FEW_SHAPES (a landmark marked on fewer than two meshes), NOT_CONVERGED, INVALID_ARGUMENT; Cancelled.
+        """
+        handle_of(training_set, TrainingSet, "training_set")
+        params = new(_abi.focal_train_params)
+        if preset is not None:
+            chosen = choice(_abi.Preset, preset, "preset")
+            call("focal_train_params_set_preset", ctypes.byref(params), chosen)
+        fill(params, eigenpair_count=eigenpair_count, tree_count=tree_count, min_leaf_samples=min_leaf_samples,
+             components_per_split=components_per_split, sampling_rate=sampling_rate,
+             max_samples_per_shape=max_samples_per_shape, proxy_vertices=proxy_vertices, seed=seed,
+             learn_confidence=learn_confidence, rigged_shapes=rigged_shapes)
+
+        def train(task_handle: Any) -> Model:
+            return cls._adopt(create("focal_model_train", _abi.focal_model, set_handle, ctypes.byref(params),
+                                     task_handle), training_set._context)
+
+        with training_set._trained() as set_handle:
+            return run(train, task, on_progress)
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str], *, context: Context | None = None) -> Model:
+        """Error: FILE_NOT_FOUND, IO, INVALID_FILE (with the damaged section), UNSUPPORTED_VERSION."""
+        file, running = path_text(path), context_or_default(context)
+        return cls._adopt(create("focal_model_load", _abi.focal_model, running._handle, file), running)
+
+    @classmethod
+    def from_bytes(cls, data: Any, *, context: Context | None = None) -> Model:
+        """From what to_bytes() gave (bytes-like). Errors as load()."""
+        memory, running = bytes_of(data), context_or_default(context)
+        return cls._adopt(create("focal_model_load_memory", _abi.focal_model, running._handle, memory, len(memory)),
+                          running)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes the model's file, whole or not at all. Error: IO, FILE_NOT_FOUND (no such folder)."""
+        call("focal_model_save", self._handle, path_text(path))
+
+    def to_bytes(self) -> bytes:
+        """What save() would write."""
+        blob = create("focal_model_save_memory", _abi.focal_blob, self._handle)
+        try:
+            return ctypes.string_at(library().focal_blob_data(blob), library().focal_blob_size(blob))
+        finally:
+            library().focal_blob_destroy(blob)
+
+    def __reduce__(self):
+        return Model.from_bytes, (self.to_bytes(),)
+
+    @property
+    def info(self) -> dict[str, Any]:
+        """preset, landmark_count, shape_count (training meshes), mean_vertex_count, sample_count, tree_node_count,
+        file_bytes."""
+        handle = self._handle
+        if self._info is None:
+            info = new(_abi.focal_model_info)
+            call("focal_model_get_info", handle, ctypes.byref(info))
+            self._info = as_dict(info)
+        return dict(self._info)
+
+    @property
+    def train_params(self) -> dict[str, Any]:
+        """The parameters of train() that it was made with."""
+        params = new(_abi.focal_train_params)
+        call("focal_model_get_train_params", self._handle, ctypes.byref(params))
+        return as_dict(params)
+
+    @property
+    def landmark_names(self) -> list[str]:
+        return self._texts("focal_model_landmark_name", self.info["landmark_count"])
+
+    @property
+    def joint_names(self) -> list[str]:
+        """Of the skeleton that it learned of rigged characters, parents first; empty when it has none."""
+        return self._texts("focal_model_joint_name", library().focal_model_joint_count(self._handle))
+
+    def detect(self, mesh: Mesh | Analysis, *, quality: _abi.Quality | str | None = None,
+               sampling_rate: float | None = None, max_samples: int | None = None,
+               peaks_per_landmark: int | None = None, found_confidence: float | None = None,
+               absent_confidence: float | None = None, keep_votes: bool | None = None, seed: int | None = None,
+               task: Task | None = None, on_progress: Progress | None = None) -> Detection:
+        """Finds the landmarks on a mesh: a part of a second. On an Analysis of it: tens of milliseconds.
+
+        quality             "best", or "interactive": faster, for a viewport
+        sampling_rate       of the vertices analysed, 0..1. Default 0: as suits model and quality
+        max_samples         1 or more. Default 1250
+        peaks_per_landmark  candidates among which the constellation chooses, 1..64. Default 8
+        found_confidence    below it a landmark is uncertain. Default 0.5
+        absent_confidence   below it a landmark is absent, 0..found_confidence. Default 0.05
+        keep_votes          keep the vote maps. Default True
+        seed                same seed, same result. Default 1
+        task, on_progress   as in train()
+
+        Error: NOT_CONVERGED, INVALID_ARGUMENT (also: an analysis made for a model with other parameters); Cancelled.
+        """
+        analysed = isinstance(mesh, Analysis)
+        given = mesh._handle if analysed else handle_of(mesh, Mesh, "mesh")
+        function = "focal_model_detect_analysis" if analysed else "focal_model_detect"
+        params = fill(new(_abi.focal_detect_params), quality=quality, sampling_rate=sampling_rate,
+                      max_samples=max_samples, peaks_per_landmark=peaks_per_landmark,
+                      found_confidence=found_confidence, absent_confidence=absent_confidence, keep_votes=keep_votes,
+                      seed=seed)
+        handle, names = self._handle, self.joint_names
+
+        def detect(task_handle: Any) -> Detection:
+            found = Detection._adopt(create(function, _abi.focal_detection, handle, given, ctypes.byref(params),
+                                            task_handle), self._context)
+            found._joint_names = names
+            return found
+
+        return run(detect, task, on_progress)
+
+    def analyse(self, mesh: Mesh, *, quality: _abi.Quality | str | None = None, sampling_rate: float | None = None,
+                max_samples: int | None = None, seed: int | None = None, task: Task | None = None,
+                on_progress: Progress | None = None) -> Analysis:
+        """What a detection spends nearly all its time on, to keep: it serves every model with the same
+        eigenpair_count, proxy_vertices and preset. Parameters and errors as detect()."""
+        given, handle = handle_of(mesh, Mesh, "mesh"), self._handle
+        params = fill(new(_abi.focal_detect_params), quality=quality, sampling_rate=sampling_rate,
+                      max_samples=max_samples, seed=seed)
+
+        def analyse(task_handle: Any) -> Analysis:
+            return Analysis._adopt(create("focal_model_analyse", _abi.focal_analysis, handle, given,
+                                          ctypes.byref(params), task_handle), self._context)
+
+        return run(analyse, task, on_progress)
+
+
+class Analysis(Handle):
+    """An analysed mesh, from Model.analyse: hand it to Model.detect of many models. It contains the mesh's geometry."""
+
+    _kind = "analysis"
+
+    def __init__(self) -> None:
+        raise TypeError("make an Analysis with Model.analyse or Analysis.load")
+
+    @classmethod
+    def load(cls, mesh: Mesh, path: str | os.PathLike[str], *, context: Context | None = None) -> Analysis:
+        """What save() wrote, for the same mesh. Error: INVALID_FILE (damaged, or of another mesh), FILE_NOT_FOUND,
+        IO, UNSUPPORTED_VERSION."""
+        given, file, running = handle_of(mesh, Mesh, "mesh"), path_text(path), context_or_default(context)
+        return cls._adopt(create("focal_analysis_load", _abi.focal_analysis, running._handle, given, file), running)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes it to a file of a few MB. Error: IO, FILE_NOT_FOUND (no such folder)."""
+        call("focal_analysis_save", self._handle, path_text(path))

@@ -1,0 +1,193 @@
+"""Meshes from arrays of every kind, from files and from memory; what is no mesh by its type or shape stays outside."""
+import array
+import decimal
+import pathlib
+import unittest
+
+import focal
+from support import Case, glb, mesh, numpy, rows, shape
+
+Status = focal.Status
+
+
+class Arrays(Case):
+    def setUp(self):
+        self.vertices, self.faces, _ = shape()
+        flat = array.array("f", [x for vertex in self.vertices for x in vertex])
+        self.expected = list(zip(*[iter(flat)] * 3))  # as 32-bit floats
+
+    def same(self, vertices, faces):
+        made = focal.Mesh(vertices, faces)
+        self.assertEqual(rows(made.vertices), rows(self.expected))
+        self.assertEqual(rows(made.faces), rows(self.faces))
+
+    def test_rows_flat_numbers_and_buffers_give_the_same_mesh(self):
+        flat_vertices = [x for vertex in self.vertices for x in vertex]
+        flat_faces = [x for face in self.faces for x in face]
+        self.same(self.vertices, self.faces)
+        self.same(flat_vertices, flat_faces)
+        self.same(array.array("f", flat_vertices), array.array("I", flat_faces))
+        self.same(array.array("d", flat_vertices), array.array("q", flat_faces))
+        self.same(memoryview(array.array("f", flat_vertices)), memoryview(array.array("i", flat_faces)))
+        two = memoryview(array.array("f", flat_vertices)).cast("B").cast("f", (len(self.vertices), 3))
+        self.same(two, [tuple(face) for face in self.faces])
+
+    @unittest.skipIf(numpy is None, "no NumPy")
+    def test_arrays_of_every_layout(self):
+        vertices, faces = numpy.array(self.vertices), numpy.array(self.faces)
+        for kind in (numpy.float32, numpy.float64, ">f4"):
+            for number in (numpy.int32, numpy.uint32, numpy.int64, numpy.uint16):
+                self.same(vertices.astype(kind), faces.astype(number))
+        self.same(numpy.asfortranarray(vertices), numpy.asfortranarray(faces))
+        self.same(numpy.repeat(vertices, 2, axis=0)[::2], numpy.hstack([faces, faces])[:, :3])
+        frozen = vertices.astype(numpy.float32)
+        frozen.flags.writeable = False
+        self.same(frozen, faces)
+
+    @unittest.skipIf(numpy is None, "no NumPy")
+    def test_arrays_come_out_with_numpy(self):
+        made = mesh()
+        self.assertEqual((made.vertices.dtype, made.vertices.shape), (numpy.float32, (made.vertex_count, 3)))
+        self.assertEqual((made.faces.dtype, made.faces.shape), (numpy.uint32, (made.triangle_count, 3)))
+        mine = made.vertices
+        mine[:] = 7  # a copy: the mesh never changes
+        self.assertNotEqual(float(made.vertices[0, 2]), 7)
+
+    @unittest.skipIf(numpy is not None, "NumPy is here")
+    def test_lists_come_out_without_numpy(self):
+        made = mesh()
+        self.assertIsInstance(made.vertices, list)
+        self.assertIsInstance(made.vertices[0], tuple)
+        self.assertIsInstance(made.faces[0][0], int)
+
+    def test_arrays_outlive_their_mesh(self):
+        with mesh() as made:
+            vertices, expected = made.vertices, rows(made.vertices)
+        self.assertEqual(rows(vertices), expected)
+
+
+class Refused(Case):
+    """Before the library is called, so with Python's own exceptions."""
+
+    def raises(self, kind, text, vertices, faces):
+        with self.assertRaisesRegex(kind, text):
+            focal.Mesh(vertices, faces)
+
+    def test_wrong_types(self):
+        vertices, faces, _ = shape()
+        for wrong in ("text", b"bytes", bytearray(12), None, 3, object()):
+            self.raises(TypeError, "vertices must", wrong, faces)
+            self.raises(TypeError, "faces must", vertices, wrong)
+        self.raises(TypeError, "vertices must", [("a", "b", "c")] * 4, faces)
+        self.raises(TypeError, "vertices must", [(1j, 0, 0)] * 4, faces)
+        self.raises(TypeError, "vertices must", [(None, 0, 0)] * 4, faces)
+        self.raises(TypeError, "faces must hold integers", vertices, [(0.0, 1.0, 2.0)])
+        self.raises(TypeError, "faces must hold integers", vertices, array.array("f", [0, 1, 2]))
+        self.raises(TypeError, "faces must hold integers", vertices, [(decimal.Decimal(1), 1, 2)])
+        with self.assertRaisesRegex(TypeError, "context must be a focal.Context"):
+            focal.Mesh(vertices, faces, context="cpu")
+
+    def test_wrong_shapes(self):
+        vertices, faces, _ = shape()
+        self.raises(ValueError, "vertices", [(0, 0)] * 4, faces)
+        self.raises(ValueError, "vertices", [(0, 0, 0), (0, 0)], faces)
+        self.raises(ValueError, "faces", vertices, [(0, 1, 2, 3)])
+        self.raises(ValueError, "vertices has 4 numbers, not a multiple of 3", [0.0, 0.0, 0.0, 1.0], faces)
+        grid = memoryview(array.array("f", range(24))).cast("B").cast("f", (2, 4, 3))
+        self.raises(ValueError, "shape", grid, faces)
+        turned = memoryview(array.array("f", range(12))).cast("B").cast("f", (3, 4))
+        self.raises(ValueError, r"shape \(n, 3\), not \(3, 4\)", turned, faces)
+
+    def test_numbers_that_are_no_indices(self):
+        vertices, faces, _ = shape()
+        for number in (-1, 2**32, 2**64):
+            with self.assertRaises((ValueError, TypeError)):
+                focal.Mesh(vertices, faces[:-1] + [(0, 1, number)])
+
+    def test_parameters(self):
+        vertices, faces, _ = shape()
+        for name in ("weld", "drop_degenerate", "bridge_components", "max_vertices", "max_triangles"):
+            with self.assertRaisesRegex(TypeError, f"{name} must be an integer"):
+                focal.Mesh(vertices, faces, **{name: "yes"})
+        with self.assertRaisesRegex(ValueError, "weld is 4294967296"):
+            focal.Mesh(vertices, faces, weld=2**32)  # would be 0 when wrapped
+        with self.assertRaisesRegex(ValueError, "max_vertices is -1"):
+            focal.Mesh(vertices, faces, max_vertices=-1)
+        self.refused(Status.INVALID_ARGUMENT, "weld is 2", focal.Mesh, vertices, faces, weld=2)
+        self.refused(Status.UNSUPPORTED, "more vertices", focal.Mesh, vertices, faces, max_vertices=10)
+
+
+class ByTheLibrary(Case):
+    def test_what_is_no_mesh(self):
+        vertices, faces, _ = shape()
+        self.refused(Status.INVALID_MESH, "names vertex", focal.Mesh, vertices, faces + [(0, 1, len(vertices))])
+        self.refused(Status.INVALID_MESH, "", focal.Mesh, [(float("nan"), 0, 0)] + vertices[1:], faces)
+        self.refused(Status.INVALID_MESH, "", focal.Mesh, [(1e300, 0, 0)] + vertices[1:], faces)
+        self.refused(Status.INVALID_MESH, "no triangles", focal.Mesh, vertices, [])
+        self.refused(Status.INVALID_MESH, "no triangles", focal.Mesh, [], [])
+        self.refused(Status.MESH_TOO_SMALL, "", focal.Mesh, vertices[:3], [(0, 1, 2)])
+
+    def test_files(self):
+        vertices, faces, _ = shape()
+        path = pathlib.Path(self.folder()) / "Körper 体.glb"
+        path.write_bytes(glb(vertices, faces))
+        for given in (path, str(path), bytes(path)):
+            self.assertEqual(focal.Mesh.load(given).triangle_count, len(faces))
+        for data in (path.read_bytes(), bytearray(path.read_bytes()), memoryview(path.read_bytes())):
+            self.assertEqual(focal.Mesh.from_bytes(data).vertex_count, len(vertices))
+        self.refused(Status.FILE_NOT_FOUND, "nowhere.glb", focal.Mesh.load, path.parent / "nowhere.glb")
+        self.refused(Status.INVALID_FILE, "", focal.Mesh.from_bytes, b"no glTF at all")
+        self.refused(Status.INVALID_FILE, "", focal.Mesh.from_bytes, path.read_bytes()[:1000])
+        self.refused(Status.INVALID_ARGUMENT, "animation", focal.Mesh.load, path, pose_animation="walk", pose_time=1)
+        self.refused(Status.INVALID_ARGUMENT, "empty", focal.Mesh.load, "")
+        for wrong in (None, 3, 1.5, ["a"]):
+            with self.assertRaisesRegex(TypeError, "path must be"):
+                focal.Mesh.load(wrong)
+        with self.assertRaisesRegex(ValueError, "NUL"):
+            focal.Mesh.load("a\0b")
+        with self.assertRaisesRegex(TypeError, "bytes-like"):
+            focal.Mesh.from_bytes("text")
+
+
+class Surface(Case):
+    def test_what_it_tells(self):
+        made = mesh()
+        info = made.info
+        self.assertEqual((info["vertex_count"], info["triangle_count"]), (514, 1024))
+        self.assertEqual((made.vertex_count, made.triangle_count), (514, 1024))
+        self.assertGreater(made.surface_area, 4 * 3.1415)
+        self.assertEqual(made.surface_area, info["surface_area"])
+        self.assertEqual(made.warnings, [])
+        self.assertEqual((len(made.warnings), "struct_size" in info), (info["warning_count"], False))
+
+    def test_warnings(self):
+        vertices, faces, _ = shape()
+        made = focal.Mesh(vertices, faces + [faces[0], (1, 1, 2)])
+        self.assertTrue(made.warnings)
+        self.assertTrue(all(isinstance(one, str) and one for one in made.warnings))
+
+    def test_points(self):
+        made = mesh()
+        corner = made.point_at_vertex(5)
+        self.assertIn(5, list(made.faces[corner.triangle]))
+        self.assertEqual(list(made.position_of(corner)), [float(x) for x in made.vertices[5]])
+        middle = made.position_of(focal.SurfacePoint(7, (1 / 3, 1 / 3, 1 / 3)))
+        corners = [made.vertices[int(v)] for v in made.faces[7]]
+        for axis in range(3):
+            self.assertAlmostEqual(middle[axis], sum(float(c[axis]) for c in corners) / 3, 5)
+        self.refused(Status.INVALID_LANDMARK, "", made.position_of, (1024, (1, 0, 0)))
+        self.refused(Status.INVALID_LANDMARK, "", made.point_at_vertex, 514)
+        for wrong in (None, 3, (1, 2, 3), (0, 1)):
+            with self.assertRaises(TypeError):
+                made.position_of(wrong)
+        for wrong, kind in (((0, (1, 0)), ValueError), (("0", (1, 0, 0)), TypeError), ((-1, (1, 0, 0)), ValueError),
+                            ((0, ("1", 0, 0)), TypeError)):
+            with self.assertRaises(kind):
+                made.position_of(wrong)
+        for wrong, kind in ((-1, ValueError), (2**32, ValueError), (1.0, TypeError), ("1", TypeError)):
+            with self.assertRaises(kind):
+                made.point_at_vertex(wrong)
+
+
+if __name__ == "__main__":
+    unittest.main()
