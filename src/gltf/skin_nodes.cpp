@@ -221,14 +221,14 @@ void SkinInserter::turn_triangles(const GltfPrimitive& primitive) {
   element["indices"] = accessor;
 }
 
-// The name, or the first of name_2, name_3, ... that no animation of the file has.
+// The name, or the first of "name (2)", "name (3)", ... that no animation of the file has.
 std::string SkinInserter::free_animation_name(const std::string& name) {
   std::set<std::string> taken;
   if (Json* animations = find(root_, "animations"); animations && animations->is_array())
     for (Json& one : *animations)
       if (const Json* own = find(one, "name"); own && own->is_string()) taken.insert(own->get<std::string>());
   std::string free = name;
-  for (int number = 2; taken.contains(free); ++number) free = name + "_" + std::to_string(number);
+  for (int number = 2; taken.contains(free); ++number) free = name + " (" + std::to_string(number) + ")";
   return free;
 }
 
