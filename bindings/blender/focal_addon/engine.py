@@ -11,8 +11,13 @@ from . import focal as _package
 _problem = ""
 
 
+def package():
+    """The package, in any thread; what started the thread has called focal()."""
+    return _package
+
+
 def focal():
-    """The package; EngineMissing when its library cannot be used."""
+    """The package, in the main thread; EngineMissing when its library cannot be used."""
     if not ready():
         raise EngineMissing(_problem)
     return _package
@@ -86,9 +91,5 @@ def _context(thread_count, backend):
 
 def context():
     """How calls run now. Read it in the main thread, use it in any."""
-    return _cached_context(threads(), preferences().backend.lower())
-
-
-def _cached_context(thread_count, backend):
     focal()
-    return _context(thread_count, backend)
+    return _context(threads(), preferences().backend.lower())

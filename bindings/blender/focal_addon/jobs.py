@@ -10,7 +10,7 @@ import threading
 
 import bpy
 
-from .engine import FAILURES, focal, message_of
+from .engine import FAILURES, message_of, package
 from .geometry import Unusable
 
 TIMER_SECONDS = 0.03
@@ -40,7 +40,7 @@ class Job:
 
     def begin(self, stage, start=0.0, end=1.0):
         """The task to hand to the next call of focal, which takes the work from one share of the whole to another."""
-        task = focal().Task()
+        task = package().Task()
         with self._lock:
             if self.cancelled:
                 raise Cancelled

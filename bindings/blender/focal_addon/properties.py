@@ -88,6 +88,9 @@ class FocalScene(bpy.types.PropertyGroup):
                           description="Also make an empty at each landmark: for constraints and for export")
     bone_names: EnumProperty(name="Bone names", items=BONE_NAMES)
     symmetric: BoolProperty(name="Symmetric", description="Bones of the left and right side get the same length")
+    template_path: StringProperty(name="Skeleton", subtype="FILE_PATH",
+                                  description="A skeleton of your own over the model's landmarks, as a JSON file; empty: "
+                                              "that of the characters that taught the model")
     replace_rig: BoolProperty(name="Replace", description="Take the old armature's modifier and weights off first")
     segmentation: EnumProperty(name="Parts", items=(
         ("AUTO", "Automatic", "By the skeleton where the model has one, else by the nearest landmark"),

@@ -4,7 +4,6 @@ import tempfile
 
 import bpy
 import numpy
-from bpy.props import BoolProperty
 
 from . import engine, gltf, landmark_data
 from .geometry import Unusable, armature_of, problem_of, selected_meshes
@@ -91,9 +90,9 @@ def learn(meshes, names, options, run_context, task):
     focal = engine.package()
     training = focal.TrainingSet(names, context=run_context)
     for mesh in meshes:
-        marks = [mesh.marks.get(name) for name in names]
-        training.add(focal.Mesh(mesh.positions, mesh.faces, context=run_context), marks)
-    return training.train(task=task, **options)
+        known = {name: place for name, place in mesh.marks.items() if name in names}
+        training.add(focal.Mesh(mesh.positions, mesh.faces, context=run_context), known)
+    return focal.Model.train(training, task=task, **options)
 
 
 def model_path(context, must_exist=False):
@@ -102,7 +101,7 @@ def model_path(context, must_exist=False):
     if not raw:
         raise Unusable("Name a model file first")
     if raw.startswith("//") and not bpy.data.filepath:
-        path = os.path.join(bpy.app.tempdir if not must_exist else bpy.app.tempdir, raw[2:])
+        path = os.path.join(bpy.app.tempdir, raw[2:])  # nothing is saved yet: gone when Blender ends
     else:
         path = bpy.path.abspath(raw)
     if must_exist and not os.path.isfile(path):
@@ -150,7 +149,7 @@ def _work_on_rigs(context, path, options, run_context):
             training = focal.TrainingSet(context=run_context)
             for file in files:
                 training.add_rig(focal.Mesh.load(file, context=run_context))
-            model = training.train(task=job.begin("training"), **options)
+            model = focal.Model.train(training, task=job.begin("training"), **options)
         model.save(path)
         return f"Learned {len(model.joint_names)} joints from {len(files)} rigged meshes"
     return work
@@ -205,10 +204,10 @@ def cross_validate(meshes, names, options, run_context, job):
 def _measure(model, mesh, run_context, task, errors):
     shape = engine.package().Mesh(mesh.positions, mesh.faces, context=run_context)
     detection = model.detect(shape, keep_votes=False, task=task)
-    for mark in detection.landmarks:
+    for mark in detection:
         if mark.name in mesh.marks and mark.point is not None:
             distance = float(numpy.linalg.norm(numpy.asarray(mark.position) - mesh.place(mark.name)))
-            errors.setdefault(mark.name, []).append((distance, distance / shape.info.surface_area ** 0.5))
+            errors.setdefault(mark.name, []).append((distance, distance / shape.surface_area ** 0.5))
 
 
 CLASSES = (FOCAL_OT_training_add, FOCAL_OT_training_remove, FOCAL_OT_train, FOCAL_OT_cross_validate)
