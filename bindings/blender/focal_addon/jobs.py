@@ -218,10 +218,13 @@ def stop():
 
 def register():
     bpy.utils.register_class(FOCAL_OT_cancel)
+    bpy.types.WindowManager.focal_progress = bpy.props.FloatProperty(
+        name="Progress", subtype="FACTOR", min=0, max=1, get=lambda _: _current.progress() if _current else 0.0)
     atexit.register(stop)
 
 
 def unregister():
     stop()
     atexit.unregister(stop)
+    del bpy.types.WindowManager.focal_progress
     bpy.utils.unregister_class(FOCAL_OT_cancel)

@@ -96,15 +96,11 @@ class FOCAL_PT_main(SidebarPanel, bpy.types.Panel):
 
 def draw_progress(layout, context, job):
     box = layout.box()
-    text = f"{100 * job.progress():.0f} %  {job.stage}"
-    if hasattr(layout, "progress"):  # Blender 4
-        box.progress(factor=job.progress(), text=text)
+    box.label(text=job.stage[:1].upper() + job.stage[1:], icon="TIME")
+    if hasattr(box, "progress"):  # Blender 4
+        box.progress(factor=job.progress(), text=f"{100 * job.progress():.0f} %")
     else:
-        split = box.row(align=True)
-        bar = split.split(factor=max(0.001, job.progress()), align=True)
-        bar.scale_y = 0.4
-        bar.prop(context.scene.focal, "bar", text="", emboss=True, toggle=True, icon="BLANK1")
-        box.label(text=text, icon="TIME")
+        box.prop(context.window_manager, "focal_progress", slider=True, text="")
     box.operator("focal.cancel", text="Cancel  (Esc)", icon="CANCEL")
 
 

@@ -75,7 +75,7 @@ def write_rig(context, obj, target, result):
     _remove_old_rig(obj)
     armature, names = _new_armature(context, obj, joints)
     _write_weights(obj, names, numbers, weights)
-    _attach(obj, armature)
+    _attach(context, obj, armature)
     return armature
 
 
@@ -123,25 +123,32 @@ def _make_bones(edit_bones, joints):
 
 
 def _tails(joints, heads):
-    """The only child's head where there is one and it lies ahead; else the tip; never at the head."""
-    children = [[c for c, other in enumerate(joints) if other.parent == j] for j in range(len(joints))]
-    span = max((a - b).length for a in heads for b in heads[:1]) or 1.0
+    """The next joint of the limb where there is one, else the tip; never at the head."""
+    span = max((a - heads[0]).length for a in heads) or 1.0
     tails = []
     for j, joint in enumerate(joints):
-        tip = _turned(joint.tip)
-        nearest = min((heads[c] for c in children[j]), key=lambda head: (head - tip).length, default=None)
-        if nearest is not None and (len(children[j]) == 1 or _ahead(heads[j], tip, nearest)):
-            tip = nearest
-        if (tip - heads[j]).length < _SHORTEST * span:
-            tip = heads[j] + _direction(joints, heads, j) * 4 * _SHORTEST * span
-        tails.append(tip)
+        following = _following(joints, heads, j)
+        tail = heads[following] if following is not None else _turned(joint.tip)
+        if (tail - heads[j]).length < _SHORTEST * span:
+            tail = heads[j] + _direction(joints, heads, j) * 4 * _SHORTEST * span
+        tails.append(tail)
     return tails
 
 
-def _ahead(head, tip, child):
-    """Whether a child continues the bone rather than branches off."""
-    a, b = tip - head, child - head
-    return a.length > 0 and b.length > 0 and a.normalized().dot(b.normalized()) > 0.9
+def _following(joints, heads, j):
+    """The child that continues a joint: its only one; at the root that which most hangs on; else the one ahead."""
+    children = [c for c, other in enumerate(joints) if other.parent == j]
+    if len(children) < 2:
+        return children[0] if children else None
+    if joints[j].parent < 0:
+        return max(children, key=lambda c: _descendants(joints, c))
+    onward = _direction(joints, heads, j)
+    ahead, best = max(((heads[c] - heads[j]).normalized().dot(onward), c) for c in children)
+    return best if ahead > 0.7 else None
+
+
+def _descendants(joints, j):
+    return 1 + sum(_descendants(joints, c) for c, other in enumerate(joints) if other.parent == j)
 
 
 def _direction(joints, heads, j):
@@ -182,7 +189,7 @@ def _write_weights(obj, names, numbers, weights):
             group.add(part.tolist(), float(value), "REPLACE")
 
 
-def _attach(obj, armature):
+def _attach(context, obj, armature):
     """Armature modifier first: it moves what the artist modelled, others refine that. The mesh stays where it is."""
     world = obj.matrix_world.copy()
     if obj.parent is not None and obj.parent.type != "ARMATURE":
@@ -193,7 +200,9 @@ def _attach(obj, armature):
     obj.matrix_world = world
     modifier = obj.modifiers.new("Armature", "ARMATURE")
     modifier.object = armature
-    obj.modifiers.move(len(obj.modifiers) - 1, 0)
+    if len(obj.modifiers) > 1:
+        with context.temp_override(object=obj, active_object=obj):
+            bpy.ops.object.modifier_move_to_index(modifier=modifier.name, index=0)
 
 
 def register():
