@@ -13,8 +13,8 @@ import bpy
 from .engine import FAILURES, message_of, package
 from .geometry import Unusable
 
-TIMER_SECONDS = 0.03
-_REDRAW_EVERY = 4  # timer events: drawing the interface costs time that the work could use
+TIMER_SECONDS = 0.02
+_REDRAW_EVERY = 8  # timer events: drawing the interface costs time that the work could use
 
 # At most one at a time: it would only compete with itself for the processor.
 _current = None
@@ -79,7 +79,7 @@ class Job:
         # On Linux each thread has its own niceness, and those that focal starts take it over: Blender stays quick.
         if os.name == "posix" and hasattr(threading, "get_native_id"):
             try:
-                os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), 10)
+                os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), 2)
             except OSError:
                 pass
         self.run()
