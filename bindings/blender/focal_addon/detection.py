@@ -15,7 +15,7 @@ _STATUS = ("FOUND", "UNCERTAIN", "ABSENT")  # focal.LandmarkStatus in its order
 
 # Rigs, parts and heat maps start from a detection: a few MB each, so only the last ones are kept.
 _KEPT = 3
-_detections = collections.OrderedDict()  # (surface key, model key) -> Detection
+_detections = collections.OrderedDict()  # (surface key, model key, quality) -> Detection
 _model = (None, None)  # model key, Model
 
 
@@ -35,7 +35,8 @@ class Target:
         self.path = model_path(context, must_exist=True)
         stat = os.stat(self.path)
         self.model_key = (self.path, stat.st_mtime_ns, stat.st_size, engine.context())
-        self.key = (self.surface.key(), self.model_key)
+        self.quality = context.scene.focal.search.lower()
+        self.key = (self.surface.key(), self.model_key, self.quality)
         self.known = _detections.get(self.key)
 
     def detect(self, job, start=0.0, end=1.0):
@@ -44,7 +45,7 @@ class Target:
             task = job.begin(f"detecting on {self.surface.name}", start, end)
             run_context = self.model_key[-1]
             mesh = engine.package().Mesh(self.positions, self.faces, context=run_context)
-            self.known = _loaded(self.model_key).detect(mesh, task=task)
+            self.known = _loaded(self.model_key).detect(mesh, quality=self.quality, task=task)
         return self.known
 
     def remember(self):

@@ -102,6 +102,7 @@ class JobOperator:
     """Mixed into an operator beside bpy.types.Operator."""
 
     _job = None
+    _target = None  # what prepare() read for apply()
     _timer = None
     _ticks = 0
 
@@ -173,16 +174,18 @@ class JobOperator:
         redraw_sidebars(context)
 
     def _finish(self, context, job):
-        if job.cancelled:
-            self.report({"INFO"}, "Cancelled: nothing was changed")
-            return {"CANCELLED"}
-        if job.failure:
-            return self.refuse(job.failure)
         try:
+            if job.cancelled:
+                self.report({"INFO"}, "Cancelled: nothing was changed")
+                return {"CANCELLED"}
+            if job.failure:
+                return self.refuse(job.failure)
             self.apply(context, job.result)
+            return {"FINISHED"}
         except Unusable as error:
             return self.refuse(str(error))
-        return {"FINISHED"}
+        finally:
+            self._job = self._target = None  # Blender keeps the last operators; they need not keep meshes
 
 
 def redraw_sidebars(context):

@@ -191,6 +191,7 @@ class FOCAL_PT_detection(SidebarPanel, bpy.types.Panel):
         column.use_property_split = True
         column.use_property_decorate = False
         column.prop(settings, "model_path")
+        column.row().prop(settings, "search", expand=True)
         column.prop(settings, "empties")
         row = layout.row()
         row.scale_y = 1.3

@@ -78,6 +78,8 @@ class FocalScene(bpy.types.PropertyGroup):
         ("DRAFT", "Draft", "A few times faster, to try something; every confidence is about one half")))
     model_path: StringProperty(name="Model", subtype="FILE_PATH", default="//landmarks.focal",
                                description="File (.focal) that training writes and detection reads")
+    search: EnumProperty(name="Search", items=(
+        ("BEST", "Best", "With the slower refinements"), ("INTERACTIVE", "Quick", "About half the time")))
     errors: CollectionProperty(type=FocalLandmarkError)
     errors_active: IntProperty()
     overlay: BoolProperty(name="Show in viewport", default=True, update=redraw_views,
