@@ -115,6 +115,7 @@ def write_landmarks(context, obj, target, detection, keep_marked=True):
         _write_runner_up(mark, target.surface, found.runner_up)
     obj.focal.model = target.path
     obj.focal.category_fit = detection.category_fit
+    display.update_empties(context, obj)
     display.refresh(context, obj)
 
 

@@ -18,8 +18,8 @@ def colour_of(mark):
 
 
 def refresh(context, obj):
-    """After landmarks changed: the empties follow, the view is drawn again."""
-    if context.scene.focal.empties or empties_of(obj):
+    """After landmarks changed: the empties follow where there are any, the view is drawn again."""
+    if empties_of(obj):
         update_empties(context, obj)
     for area in context.screen.areas if context.screen else ():
         if area.type == "VIEW_3D":

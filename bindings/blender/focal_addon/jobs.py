@@ -222,7 +222,8 @@ def stop():
 def register():
     bpy.utils.register_class(FOCAL_OT_cancel)
     bpy.types.WindowManager.focal_progress = bpy.props.FloatProperty(
-        name="Progress", subtype="FACTOR", min=0, max=1, get=lambda _: _current.progress() if _current else 0.0)
+        name="Progress", subtype="PERCENTAGE", min=0, max=100, precision=0,
+        get=lambda _: 100 * _current.progress() if _current else 0.0)
     atexit.register(stop)
 
 

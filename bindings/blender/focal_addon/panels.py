@@ -29,19 +29,19 @@ class FOCAL_UL_training(bpy.types.UIList):
         if obj is None:
             layout.label(text="(deleted)", icon="ERROR")
             return
-        row = layout.row(align=True)
-        right = row.row()
+        row = layout.split(factor=0.65)
         if context.scene.focal.source == "RIGS":
             armature = armature_of(obj)
-            row.label(text=obj.name, icon="ERROR" if armature is None else "ARMATURE_DATA")
-            right = row.row()
-            right.label(text="no armature" if armature is None else f"{len(armature.data.bones)} bones")
+            icon, text = "ARMATURE_DATA", f"{len(armature.data.bones)} bones" if armature is not None else "no rig"
+            good = armature is not None
         else:
             placed, total, _ = landmark_data.counts(obj)
-            row.label(text=obj.name, icon="ERROR" if not placed else "MESH_DATA")
-            right = row.row()
-            right.label(text=f"{placed} of {total}" if total else "no landmarks")
+            icon, text, good = "MESH_DATA", f"{placed}/{total}" if total else "no marks", placed > 0
+        row.label(text=obj.name, icon=icon if good else "ERROR")
+        right = row.row()
         right.alignment = "RIGHT"
+        right.alert = not good
+        right.label(text=text)
 
 
 class FOCAL_UL_errors(bpy.types.UIList):
@@ -77,21 +77,25 @@ class SidebarPanel:
 
 
 class FOCAL_PT_main(SidebarPanel, bpy.types.Panel):
-    """What concerns all others: a library that is missing, work that runs."""
-    bl_label = "focal"
-    bl_options = {"HIDE_HEADER"}
-
-    @classmethod
-    def poll(cls, _context):
-        return bool(engine.problem()) or jobs.current() is not None
+    """What concerns all others: the model, a library that is missing, work that runs."""
+    bl_label = "Model"
 
     def draw(self, context):
+        layout, job = self.layout, jobs.current()
         if engine.problem():
-            draw_problem(self.layout)
-            self.layout.operator("preferences.addon_show", text="Preferences", icon="PREFERENCES").module = __package__
-        job = jobs.current()
+            draw_problem(layout)
+            layout.operator("preferences.addon_show", text="Preferences", icon="PREFERENCES").module = __package__
         if job is not None:
-            draw_progress(self.layout, context, job)
+            draw_progress(layout, context, job)
+        settings_column(layout).prop(context.scene.focal, "model_path")
+
+
+def settings_column(layout):
+    """Names on the left, values on the right, no dots for animation."""
+    column = layout.column()
+    column.use_property_split = True
+    column.use_property_decorate = False
+    return column
 
 
 def draw_progress(layout, context, job):
@@ -148,11 +152,13 @@ class FOCAL_PT_landmarks(SidebarPanel, bpy.types.Panel):
             box.label(text=f"Other side missing: {other}", icon="MOD_MIRROR")
         if mark.status in {"FOUND", "UNCERTAIN"}:
             box.label(text=f"{100 * mark.confidence:.0f} % sure, within about {mark.expected_error:.3g}")
-        row = box.row(align=True)
-        row.operator("focal.landmark_accept", icon="CHECKMARK")
-        row.operator("focal.landmark_runner_up", icon="FILE_REFRESH")
-        row.operator("focal.landmark_unplace", text="", icon="LOOP_BACK")
-        row.operator("focal.landmark_unplace", text="", icon="X").absent = True
+        column = box.column(align=True)
+        row = column.row(align=True)
+        row.operator("focal.landmark_accept")
+        row.operator("focal.landmark_runner_up")
+        row = column.row(align=True)
+        row.operator("focal.landmark_unplace", text="Clear")
+        row.operator("focal.landmark_unplace", text="Absent").absent = True
 
 
 class FOCAL_PT_training(SidebarPanel, bpy.types.Panel):
@@ -167,18 +173,14 @@ class FOCAL_PT_training(SidebarPanel, bpy.types.Panel):
         side = row.column(align=True)
         side.operator("focal.training_add", text="", icon="ADD")
         side.operator("focal.training_remove", text="", icon="REMOVE")
-        column = layout.column()
-        column.use_property_split = True
-        column.use_property_decorate = False
-        column.row().prop(settings, "quality", expand=True)
-        column.prop(settings, "model_path")
+        settings_column(layout).row().prop(settings, "quality", expand=True)
         row = layout.row(align=True)
         row.scale_y = 1.3
         row.operator("focal.train", icon="PLAY")
         if settings.source == "MARKS":
             row.operator("focal.cross_validate", icon="DRIVER_DISTANCE")
         if settings.errors:
-            layout.label(text="Errors, of the size, on meshes left out:")
+            layout.label(text="Errors on meshes left out")
             layout.template_list("FOCAL_UL_errors", "", settings, "errors", settings, "errors_active", rows=4)
 
 
@@ -187,10 +189,7 @@ class FOCAL_PT_detection(SidebarPanel, bpy.types.Panel):
 
     def draw(self, context):
         layout, settings, obj = self.layout, context.scene.focal, context.active_object
-        column = layout.column()
-        column.use_property_split = True
-        column.use_property_decorate = False
-        column.prop(settings, "model_path")
+        column = settings_column(layout)
         column.row().prop(settings, "search", expand=True)
         column.prop(settings, "empties")
         row = layout.row()
@@ -198,9 +197,7 @@ class FOCAL_PT_detection(SidebarPanel, bpy.types.Panel):
         row.operator("focal.detect", icon="VIEWZOOM")
         if problem_of(obj) or not obj.focal.model:
             return
-        row = layout.row(align=True)
-        row.operator("focal.show_votes", icon="BRUSH_DATA")
-        row.operator("focal.next_uncertain", icon="TRIA_RIGHT")
+        layout.operator("focal.show_votes", icon="BRUSH_DATA")
         row = layout.row()
         row.alert = obj.focal.category_fit < 0.2
         row.label(text=f"Fits the model's kind: {100 * obj.focal.category_fit:.0f} %")
@@ -209,6 +206,7 @@ class FOCAL_PT_detection(SidebarPanel, bpy.types.Panel):
             box = layout.box()
             for line in wrapped("To look at: " + ", ".join(unsure), 40):
                 box.label(text=line)
+            box.operator("focal.next_uncertain", icon="TRIA_RIGHT")
 
 
 class FOCAL_PT_rig(SidebarPanel, bpy.types.Panel):
@@ -216,14 +214,12 @@ class FOCAL_PT_rig(SidebarPanel, bpy.types.Panel):
 
     def draw(self, context):
         layout, settings, obj = self.layout, context.scene.focal, context.active_object
-        column = layout.column()
-        column.use_property_split = True
-        column.use_property_decorate = False
+        column = settings_column(layout)
         column.prop(settings, "bone_names")
         column.prop(settings, "template_path")
         column.prop(settings, "symmetric")
         if obj is not None and obj.type == "MESH" and armature_of(obj) is not None:
-            column.prop(settings, "replace_rig", text=f"Replace '{armature_of(obj).name}'")
+            column.prop(settings, "replace_rig", text="Replace the old rig")
         row = layout.row()
         row.scale_y = 1.3
         row.operator("focal.rig", icon="ARMATURE_DATA")
@@ -235,9 +231,7 @@ class FOCAL_PT_segmentation(SidebarPanel, bpy.types.Panel):
 
     def draw(self, context):
         layout, settings = self.layout, context.scene.focal
-        column = layout.column()
-        column.use_property_split = True
-        column.use_property_decorate = False
+        column = settings_column(layout)
         column.prop(settings, "segmentation")
         column.prop(settings, "parts_as_groups")
         column.prop(settings, "parts_as_colours")
@@ -250,9 +244,7 @@ class FOCAL_PT_batch(SidebarPanel, bpy.types.Panel):
 
     def draw(self, context):
         layout, settings = self.layout, context.scene.focal
-        column = layout.column()
-        column.use_property_split = True
-        column.use_property_decorate = False
+        column = settings_column(layout)
         column.prop(settings, "batch")
         column.prop(settings, "batch_rig")
         layout.operator("focal.batch", icon="OUTLINER_COLLECTION")

@@ -71,8 +71,8 @@ class FocalScene(bpy.types.PropertyGroup):
     training: CollectionProperty(type=FocalTrainingMesh)
     training_active: IntProperty()
     source: EnumProperty(name="Learn from", items=(
-        ("MARKS", "Marked meshes", "Landmarks that you marked"),
-        ("RIGS", "Rigged meshes", "Skeletons and weights of rigged characters; no marks are needed")))
+        ("MARKS", "Marks", "Landmarks that you marked"),
+        ("RIGS", "Rigs", "Skeletons and weights of rigged characters; no marks are needed")))
     quality: EnumProperty(name="Training", default="FULL", items=(
         ("FULL", "Full", "Most accurate, with confidences that mean something"),
         ("DRAFT", "Draft", "A few times faster, to try something; every confidence is about one half")))
@@ -88,7 +88,7 @@ class FocalScene(bpy.types.PropertyGroup):
                                 description="Write each landmark's name beside it")
     empties: BoolProperty(name="Empties", default=True,
                           description="Also make an empty at each landmark: for constraints and for export")
-    bone_names: EnumProperty(name="Bone names", items=BONE_NAMES)
+    bone_names: EnumProperty(name="Names", items=BONE_NAMES, description="Names of the bones")
     symmetric: BoolProperty(name="Symmetric", description="Bones of the left and right side get the same length")
     template_path: StringProperty(name="Skeleton", subtype="FILE_PATH",
                                   description="A skeleton of your own over the model's landmarks, as a JSON file; empty: "

@@ -1,0 +1,164 @@
+"""Takes the pictures of docs/blender.md in a real window: see make.sh beside it."""
+import os
+import subprocess
+import sys
+import traceback
+
+import bpy
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../tests/blender"))
+from common import MODULE, OUT, SAMPLES, activate, install, load_character  # noqa: E402
+
+TRAINING = [f"humanoid_{i:02}" for i in range(6)]
+OTHER = "humanoid_06"
+TEMPLATE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../samples/templates/humanoid.json")
+TABS_X, FOCAL_TAB_Y = 13, 190  # from the right and the top of the area: below Item, Tool, View
+
+
+def window():
+    return bpy.context.window_manager.windows[0]
+
+
+def area():
+    return next(a for a in window().screen.areas if a.type == "VIEW_3D")
+
+
+def region(kind="WINDOW"):
+    return next(r for r in area().regions if r.type == kind)
+
+
+def call(operator, *arguments, **options):
+    with bpy.context.temp_override(window=window(), area=area(), region=region()):
+        return operator(*arguments, **options)
+
+
+def shoot(name):
+    call(bpy.ops.screen.screenshot_area, filepath=os.path.join(OUT, name + ".png"))
+
+
+def show(*objects):
+    """Only these, from the front."""
+    for obj in bpy.data.objects:
+        if obj.type == "MESH":
+            obj.hide_set(obj not in objects)
+    activate(objects[0])
+    for obj in objects:
+        obj.select_set(True)
+    call(bpy.ops.view3d.view_axis, type="BACK")  # the samples look to +Y
+    call(bpy.ops.view3d.view_selected)
+    for obj in objects:
+        obj.select_set(False)
+    bpy.context.view_layer.objects.active = objects[0]
+
+
+shown = set()
+
+
+def panels_by_label():
+    """Makes the tab's panels show by their label, open: what a user does by clicking their headers."""
+    panels = sys.modules[MODULE + ".panels"]
+    for cls in panels.CLASSES:
+        if not issubclass(cls, bpy.types.Panel) or cls is panels.FOCAL_PT_main:
+            continue
+        bpy.utils.unregister_class(cls)
+        cls.bl_options = set()
+        cls.poll = classmethod(lambda cls, _context: cls.bl_label in shown)
+        bpy.utils.register_class(cls)
+
+
+def open_panels(*labels):
+    shown.clear()
+    shown.update(labels)
+
+
+def click_tab():
+    """Blender has no call that chooses a tab."""
+    for x, y in ((area().width - TABS_X, FOCAL_TAB_Y), (300, 800)):
+        y += window().height - area().y - area().height
+        subprocess.run(["xdotool", "mousemove", str(x), str(y)], check=True)
+        yield 0.3
+        if x != 300:
+            for press in ("mousedown", "mouseup"):
+                subprocess.run(["xdotool", press, "1"], check=True)
+                yield 0.3
+
+
+def prepare():
+    install()
+    for obj in list(bpy.data.objects):
+        bpy.data.objects.remove(obj)
+    for number, name in enumerate(TRAINING + [OTHER]):
+        obj = load_character(name)
+        if name != OTHER:
+            activate(obj)
+            call(bpy.ops.focal.landmark_import, filepath=os.path.join(SAMPLES, name + ".landmarks.json"))
+            bpy.ops.focal.training_add()
+    settings = bpy.context.scene.focal
+    settings.model_path = os.path.join(OUT, "humanoid.focal")
+    space = area().spaces.active
+    space.show_region_ui = True
+    space.overlay.show_floor = space.overlay.show_axis_x = space.overlay.show_axis_y = False
+    space.overlay.show_outline_selected = False
+    space.show_gizmo = space.show_region_toolbar = space.show_region_tool_header = False
+    space.overlay.show_text = False
+
+
+def shots():
+    prepare()
+    open_panels("Landmarks", "Detect")
+    panels_by_label()
+    yield 1
+    show(bpy.data.objects[TRAINING[0]])
+    yield 1
+    yield from click_tab()
+    yield 1
+    shoot("landmarks")
+    show(bpy.data.objects[TRAINING[0]])
+    open_panels("Landmarks", "Train")
+    bpy.context.scene.focal.quality = "DRAFT"
+    yield 1
+    call(bpy.ops.focal.cross_validate, "INVOKE_DEFAULT")
+    jobs = sys.modules[MODULE + ".jobs"]
+    while jobs.current() is not None:
+        yield 0.5
+    bpy.context.scene.focal.quality = "FULL"
+    call(bpy.ops.focal.train, "INVOKE_DEFAULT")
+    yield 8
+    shoot("train")
+    while jobs.current() is not None:
+        yield 0.5
+    other = bpy.data.objects[OTHER]
+    bpy.context.scene.focal.model_path = os.path.join(OUT, "humanoid.focal")
+    show(other)
+    open_panels("Landmarks", "Detect")
+    bpy.context.scene.focal.empties = False
+    call(bpy.ops.focal.detect)
+    yield 1
+    shoot("detect")
+    call(bpy.ops.focal.show_votes)
+    yield 1
+    shoot("votes")
+    bpy.context.scene.focal.template_path = TEMPLATE
+    open_panels("Rig", "Segment", "Collection")
+    call(bpy.ops.focal.segment)
+    yield 1
+    shoot("parts")
+    area().spaces.active.shading.color_type = "MATERIAL"
+    call(bpy.ops.focal.rig)
+    yield 1
+    shoot("rig")
+
+
+def run(steps=shots()):
+    try:
+        return next(steps)
+    except StopIteration:
+        print("all passed", flush=True)
+        bpy.ops.wm.quit_blender()
+    except BaseException:
+        traceback.print_exc()
+        os._exit(3)
+
+
+bpy.context.preferences.view.show_splash = False
+bpy.app.timers.register(run, first_interval=0.5)
