@@ -1,10 +1,14 @@
 """Takes the pictures of docs/blender.md in a real window: see make.sh beside it."""
+import json
 import os
+import shutil
 import subprocess
 import sys
 import traceback
 
+import bmesh
 import bpy
+from mathutils import Vector
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../tests/blender"))
 from common import MODULE, OUT, SAMPLES, activate, install, load_character  # noqa: E402
@@ -94,13 +98,31 @@ def prepare():
             call(bpy.ops.focal.landmark_import, filepath=os.path.join(SAMPLES, name + ".landmarks.json"))
             bpy.ops.focal.training_add()
     settings = bpy.context.scene.focal
-    settings.model_path = os.path.join(OUT, "humanoid.focal")
+    bpy.ops.wm.save_as_mainfile(filepath=os.path.join(OUT, "pictures.blend"))
+    shutil.copy(TEMPLATE, OUT)
+    settings.model_path = "//humanoid.focal"
     space = area().spaces.active
     space.show_region_ui = True
     space.overlay.show_floor = space.overlay.show_axis_x = space.overlay.show_axis_y = False
     space.overlay.show_outline_selected = False
     space.show_gizmo = space.show_region_toolbar = space.show_region_tool_header = False
     space.overlay.show_text = False
+
+
+def without_a_hand(obj):
+    """A copy that lacks a forearm: what is not there cannot be found."""
+    hurt = obj.copy()
+    hurt.data = obj.data.copy()
+    bpy.context.scene.collection.objects.link(hurt)
+    with open(os.path.join(SAMPLES, OTHER + ".landmarks.json"), encoding="utf-8") as file:
+        x, y, z = next(m["position"] for m in json.load(file)["landmarks"] if m["name"] == "handTip.L")
+    mesh = bmesh.new()
+    mesh.from_mesh(hurt.data)
+    gone = [v for v in mesh.verts if (v.co - Vector((x, -z, y))).length < 0.25]
+    bmesh.ops.delete(mesh, geom=gone, context="VERTS")
+    mesh.to_mesh(hurt.data)
+    mesh.free()
+    return hurt
 
 
 def shots():
@@ -128,17 +150,21 @@ def shots():
     while jobs.current() is not None:
         yield 0.5
     other = bpy.data.objects[OTHER]
-    bpy.context.scene.focal.model_path = os.path.join(OUT, "humanoid.focal")
-    show(other)
-    open_panels("Landmarks", "Detect")
     bpy.context.scene.focal.empties = False
+    open_panels("Landmarks", "Detect")
+    hurt = without_a_hand(other)
+    show(hurt)
     call(bpy.ops.focal.detect)
+    call(bpy.ops.focal.next_uncertain)
     yield 1
     shoot("detect")
+    show(other)
+    call(bpy.ops.focal.detect)
+    other.focal.active = other.focal.landmarks.find("elbow.L")
     call(bpy.ops.focal.show_votes)
     yield 1
     shoot("votes")
-    bpy.context.scene.focal.template_path = TEMPLATE
+    bpy.context.scene.focal.template_path = "//humanoid.json"
     open_panels("Rig", "Segment", "Collection")
     call(bpy.ops.focal.segment)
     yield 1

@@ -35,8 +35,9 @@ def _draw():
             continue
         place = location_3d_to_region_2d(context.region, context.region_data, obj.matrix_world @ mark.position)
         if place is not None:
-            seen = not look or _is_seen(context, obj, mark.position, place)
-            discs.append((place, mark, number == obj.focal.active, 1.0 if seen else _BEHIND))
+            active = number == obj.focal.active
+            seen = active or not look or _is_seen(context, obj, mark.position, place)
+            discs.append((place, mark, active, 1.0 if seen else _BEHIND))
     _draw_discs(discs, scale)
     if settings.overlay_names:
         _draw_names(discs, scale)

@@ -29,7 +29,7 @@ class FOCAL_UL_training(bpy.types.UIList):
         if obj is None:
             layout.label(text="(deleted)", icon="ERROR")
             return
-        row = layout.split(factor=0.65)
+        row = layout.split(factor=0.6)
         if context.scene.focal.source == "RIGS":
             armature = armature_of(obj)
             icon, text = "ARMATURE_DATA", f"{len(armature.data.bones)} bones" if armature is not None else "no rig"
@@ -151,7 +151,7 @@ class FOCAL_PT_landmarks(SidebarPanel, bpy.types.Panel):
         if other and landmark_data.index_of(obj, other) < 0:
             box.label(text=f"Other side missing: {other}", icon="MOD_MIRROR")
         if mark.status in {"FOUND", "UNCERTAIN"}:
-            box.label(text=f"{100 * mark.confidence:.0f} % sure, within about {mark.expected_error:.3g}")
+            box.label(text=f"{100 * mark.confidence:.0f} % sure, about {mark.expected_error:.2g} off")
         column = box.column(align=True)
         row = column.row(align=True)
         row.operator("focal.landmark_accept")
@@ -178,7 +178,7 @@ class FOCAL_PT_training(SidebarPanel, bpy.types.Panel):
         row.scale_y = 1.3
         row.operator("focal.train", icon="PLAY")
         if settings.source == "MARKS":
-            row.operator("focal.cross_validate", icon="DRIVER_DISTANCE")
+            row.operator("focal.cross_validate", text="Measure", icon="DRIVER_DISTANCE")
         if settings.errors:
             layout.label(text="Errors on meshes left out")
             layout.template_list("FOCAL_UL_errors", "", settings, "errors", settings, "errors_active", rows=4)
@@ -219,7 +219,7 @@ class FOCAL_PT_rig(SidebarPanel, bpy.types.Panel):
         column.prop(settings, "template_path")
         column.prop(settings, "symmetric")
         if obj is not None and obj.type == "MESH" and armature_of(obj) is not None:
-            column.prop(settings, "replace_rig", text="Replace the old rig")
+            column.prop(settings, "replace_rig", text="Replace")
         row = layout.row()
         row.scale_y = 1.3
         row.operator("focal.rig", icon="ARMATURE_DATA")
