@@ -1,5 +1,6 @@
 # What the zip must not hold, and the platform that it is for. FOLDER: the staged add-on; PLATFORM: linux-x64.
-file(GLOB_RECURSE caches LIST_DIRECTORIES TRUE ${FOLDER}/*__pycache__)
+file(GLOB_RECURSE caches LIST_DIRECTORIES TRUE ${FOLDER}/*)
+list(FILTER caches INCLUDE REGEX "/__pycache__$")
 foreach(cache IN LISTS caches)
   file(REMOVE_RECURSE ${cache})
 endforeach()

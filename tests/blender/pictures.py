@@ -4,7 +4,7 @@ from mathutils import Vector
 
 
 def render(path, objects, armature=None, size=(360, 480), colour_type="MATERIAL"):
-    """A picture of some objects from the front, which is at +Y here; of an armature its bones as solids, for overlays do not render."""
+    """Some objects from the front, which is at +Y here; an armature's bones as solids, for overlays do not render."""
     scene = bpy.context.scene
     stand_ins = _bones_as_meshes(armature) if armature is not None else []
     shown = set(objects) | set(stand_ins)
