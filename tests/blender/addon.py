@@ -78,6 +78,18 @@ def test_training():
     step("trained on six")
 
 
+def test_measure():
+    """Errors on meshes left out, worst first."""
+    settings = bpy.context.scene.focal
+    while len(settings.training) > 3:
+        settings.training.remove(0)
+    check(bpy.ops.focal.cross_validate() == {"FINISHED"}, "measured")
+    shares = [item.share for item in settings.errors]
+    check(len(shares) == 24 and shares == sorted(shares, reverse=True), "every landmark, worst first")
+    check(0.1 < sum(shares) / len(shares) < 8, f"a mean of {sum(shares) / len(shares):.1f} %")
+    step(f"measured on three left out in turn: mean {sum(shares) / len(shares):.1f} %")
+
+
 def test_refusals():
     """What cannot be done is told, and nothing is changed."""
     settings = bpy.context.scene.focal
@@ -102,7 +114,10 @@ def test_refusals():
     path, settings.model_path = settings.model_path, "/nowhere/none.focal"
     check("no model" in refused(bpy.ops.focal.detect), "no model")
     settings.model_path = path
-    check("not learned" in refused(bpy.ops.focal.rig) or True, "no skeleton")
+    check("was not learned from rigged characters" in refused(bpy.ops.focal.rig), "no skeleton")
+    twin = bpy.data.objects.new("twin", obj.data)
+    check("shares its mesh" in refused(bpy.ops.focal.rig), "a mesh of two objects")
+    bpy.data.objects.remove(twin)
     check(obj.parent is None or obj.parent.type != "ARMATURE", "nothing was changed")
     step("refusals")
 
@@ -159,6 +174,7 @@ def test_votes_and_parts():
     obj = bpy.data.objects[OTHERS[0]]
     activate(obj)
     obj.focal.active = obj.focal.landmarks.find("nose")
+    bpy.ops.object.mode_set(mode="EDIT")
     bpy.ops.focal.show_votes()
     colours = numpy.empty(4 * len(obj.data.vertices), dtype=numpy.float32)
     obj.data.color_attributes["focal votes"].data.foreach_get("color", colours)
@@ -307,26 +323,35 @@ def test_undo_and_file():
 
 
 def test_library_missing():
-    """A clear message, and the panels' poll does not fail."""
-    preferences = bpy.context.preferences.addons[MODULE].preferences
-    preferences.library_path = "/nowhere/libfocal.so"
+    """Without its library the add-on can be switched on, says what to do, and is well again when there is one."""
+    os.environ["FOCAL_LIBRARY"] = "/nowhere/libfocal.so.0"
+    install()
+    empty_scene()
     engine = sys.modules[MODULE + ".engine"]
-    check(not engine.ready() and "Restart Blender" in engine.problem(), f"told: {engine.problem()}")
-    preferences.library_path = ""
-    check(engine.ready(), "and well again")
+    check("/nowhere" in engine.problem() and "focal_addon-linux" in engine.problem(), f"told: {engine.problem()}")
+    bpy.ops.mesh.primitive_uv_sphere_add()
+    check("/nowhere" in refused(bpy.ops.focal.detect), "operators tell it too")
+    del os.environ["FOCAL_LIBRARY"]
+    bpy.ops.focal.check_library()
+    check(not engine.problem() and engine.ready(), "and well again")
+    bpy.context.preferences.addons[MODULE].preferences.library_path = "/nowhere/libfocal.so"
+    check(engine.waits_for_restart() and engine.ready(), "another path waits for the next start")
+    bpy.context.preferences.addons[MODULE].preferences.library_path = ""
+    bpy.data.objects.remove(bpy.context.active_object)
+    step("installed, without its library first")
+
+
+def test_off_and_on():
     bpy.ops.preferences.addon_disable(module=MODULE)
-    check(not hasattr(bpy.types.Scene, "focal"), "switched off without a trace")
+    check(not hasattr(bpy.types.Scene, "focal") and not hasattr(bpy.types.Object, "focal"), "no trace when off")
     bpy.ops.preferences.addon_enable(module=MODULE)
     check(sys.modules[MODULE + ".engine"].ready(), "and on again")
-    step("library missing, off and on")
+    step("off and on")
 
 
 def main():
-    install()
-    empty_scene()
-    step("installed")
-    for test in (test_marks, test_list, test_training, test_refusals, test_detection, test_votes_and_parts, test_rig,
-                 test_collection, test_rigs, test_undo_and_file, test_library_missing):
+    for test in (test_library_missing, test_marks, test_list, test_training, test_measure, test_refusals, test_detection, test_votes_and_parts, test_rig,
+                 test_collection, test_rigs, test_undo_and_file, test_off_and_on):
         test()
     print("all passed")
 

@@ -1,6 +1,6 @@
 """The add-on's zip against the rules of Blender 4.2 and later for extensions, and of Blender 3 for add-ons.
 
-Blender 4.2 is in no Debian package: this holds what its manual asks for.  manifest_test.py ZIP
+Blender 4.2 is in no Debian package: this holds what its manual asks for.  manifest_test.py ZIP VERSION
 """
 import ast
 import re
@@ -68,7 +68,7 @@ def check_sources(archive, top, manifest):
                   f"{name}: an extension's own modules are imported relative to it")
 
 
-def main(path):
+def main(path, version):
     with zipfile.ZipFile(path) as archive:
         names = archive.namelist()
         tops = {name.split("/")[0] for name in names}
@@ -76,6 +76,7 @@ def main(path):
         top = tops.pop()
         manifest = tomllib.loads(archive.read(f"{top}/blender_manifest.toml").decode())
         check_manifest(manifest)
+        check(manifest["version"] == version, f"the version is focal's: {version}")
         check_sources(archive, top, manifest)
         check(f"{top}/LICENSE" in names, "the licence is inside")
         check(not any("__pycache__" in name for name in names), "no caches inside")
@@ -85,4 +86,4 @@ def main(path):
     return bool(failures)
 
 
-sys.exit(main(sys.argv[1]))
+sys.exit(main(*sys.argv[1:]))

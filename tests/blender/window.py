@@ -189,6 +189,9 @@ def test():
     yield from cancel()
     yield from click()
     yield from cycles()
+    call(bpy.ops.focal.train, "INVOKE_DEFAULT")  # Blender ends while it runs, and must end well
+    yield 0.3
+    check(jobs().current() is not None, "training runs")
 
 
 def run(steps=test()):

@@ -9,6 +9,7 @@ from . import focal as _package
 
 # The library stays loaded as long as Blender runs, also when the add-on is switched off and on again.
 _problem = ""
+_loaded_from = None
 
 
 def package():
@@ -40,13 +41,20 @@ def message_of(error):
 
 def ready():
     """Whether the library is loaded; tries to when it is not."""
-    global _problem
-    try:
-        _package.load_library(_wanted_path())
-        _problem = ""
-    except _package.LibraryError as error:
-        _problem = _explained(str(error))
-    return not _problem
+    global _problem, _loaded_from
+    if _loaded_from is None:
+        try:
+            _loaded_from = _package.load_library(_wanted_path())
+            _problem = ""
+        except _package.LibraryError as error:
+            _problem = _explained(str(error))
+    return _loaded_from is not None
+
+
+def waits_for_restart():
+    """Whether the preferences name another library than the one that runs."""
+    wanted = _wanted_path()
+    return bool(_loaded_from and wanted and os.path.realpath(wanted) != os.path.realpath(_loaded_from))
 
 
 def problem():
@@ -70,8 +78,6 @@ def preferences():
 def _explained(text):
     """The package's message is for programmers: name the download and the setting."""
     first = text.split("\n")[0]
-    if "loaded already" in first:
-        return first + " Restart Blender to use another one."
     system = {"Linux": "linux", "Windows": "windows", "Darwin": "macos"}.get(platform.system(), platform.system())
     machine = {"x86_64": "x64", "AMD64": "x64", "aarch64": "arm64", "arm64": "arm64"}.get(
         platform.machine(), platform.machine())

@@ -29,6 +29,8 @@ def problem_of(obj):
         return "Select a mesh"
     if obj.type != "MESH":
         return f"'{obj.name}' is no mesh ({obj.type.replace('_', ' ').lower()}): select a mesh"
+    if obj.library is not None or obj.data.library is not None:
+        return f"'{obj.name}' is linked from another file: make it local first"
     if not obj.data.polygons and obj.mode != "EDIT":
         return f"'{obj.name}' has no faces"
     if abs(obj.matrix_world.determinant()) < 1e-12:

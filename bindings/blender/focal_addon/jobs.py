@@ -112,7 +112,7 @@ class JobOperator:
 
     def execute(self, context):
         try:
-            job = Job(self.prepare(context))
+            job = self._prepared(context)
         except (Unusable, *FAILURES) as error:
             return self.refuse(message_of(error))
         job.run()
@@ -123,7 +123,7 @@ class JobOperator:
         if bpy.app.background or context.window is None:
             return self.execute(context)
         try:
-            self._job = Job(self.prepare(context))
+            self._job = self._prepared(context)
         except (Unusable, *FAILURES) as error:
             return self.refuse(message_of(error))
         _current = self._job
@@ -155,6 +155,12 @@ class JobOperator:
         self._job.cancel()
         self._job.wait(5)
         self._end(context)
+
+    def _prepared(self, context):
+        """Results are written to meshes, which takes object mode."""
+        if context.active_object is not None and context.active_object.mode != "OBJECT":
+            bpy.ops.object.mode_set(mode="OBJECT")
+        return Job(self.prepare(context))
 
     def refuse(self, message):
         self.report({"ERROR"}, message)

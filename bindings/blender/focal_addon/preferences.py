@@ -11,7 +11,9 @@ class FOCAL_OT_check_library(bpy.types.Operator):
     bl_label = "Check"
 
     def execute(self, _context):
-        if engine.ready():
+        if engine.waits_for_restart():
+            self.report({"WARNING"}, "Restart Blender to use this library")
+        elif engine.ready():
             self.report({"INFO"}, f"focal {engine.version()} is ready")
         else:
             self.report({"ERROR"}, engine.problem())
@@ -43,6 +45,8 @@ class FocalPreferences(bpy.types.AddonPreferences):
         row = layout.row(align=True)
         row.prop(self, "library_path")
         row.operator("focal.check_library", text="", icon="FILE_REFRESH")
+        if engine.waits_for_restart():
+            layout.label(text="Restart Blender to use this library", icon="INFO")
         layout.prop(self, "threads")
         layout.prop(self, "backend")
 

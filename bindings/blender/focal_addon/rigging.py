@@ -26,6 +26,9 @@ class RigTarget(Target):
         if armature is not None and not settings.replace_rig:
             raise Unusable(f"'{obj.name}' is moved by the armature '{armature.name}' already: "
                            "remove its modifier, or tick Replace")
+        if obj.data.users > 1:  # weights lie with the mesh
+            raise Unusable(f"'{obj.name}' shares its mesh with other objects: "
+                           "make it single (Object > Relations > Make Single User)")
         self.options = {"names": settings.bone_names.lower(), "symmetric": settings.symmetric,
                         "skeleton_template": _template(settings)}
 
@@ -95,8 +98,11 @@ def _new_armature(context, obj, joints):
     armature = bpy.data.objects.new(f"{obj.name} rig", bpy.data.armatures.new(f"{obj.name} rig"))
     armature.location = obj.matrix_world.translation
     armature.show_in_front = True
-    (obj.users_collection[0] if obj.users_collection else context.scene.collection).objects.link(armature)
+    obj.users_collection[0].objects.link(armature)
     context.view_layer.update()
+    if armature.name not in context.view_layer.objects:  # that collection is switched off
+        context.scene.collection.objects.link(armature)
+        context.view_layer.update()
     with Selection(context, [armature]):
         bpy.ops.object.mode_set(mode="EDIT")
         bones = _make_bones(armature.data.edit_bones, joints)
