@@ -40,7 +40,19 @@ Preset checked_preset(focal_preset preset) {
   return static_cast<Preset>(preset);
 }
 
+// What does not stand in the parameters: the shapes learned of rigged characters.
+focal_train_params abi_params_of(const ModelObject& object) {
+  focal_train_params result = to_abi(object.info.params);
+  if (!object.info.joint_names.empty()) result.rigged_shapes = object.info.shape_count;
+  return result;
+}
+
 }  // namespace
+
+uint64_t ModelObject::file_bytes() const {
+  std::call_once(file_once_, [&] { file_bytes_ = serialise(*model).size(); });
+  return file_bytes_;
+}
 
 template <>
 struct StructTraits<focal_train_params> {
@@ -118,7 +130,7 @@ focal_status focal_model_train(const focal_training_set* set, const focal_train_
     const bool rigged = !object->characters.empty();
     const TrainingSet made =
         rigged ? training_set_of(object->characters,
-                                 {.shapes = read_struct(params).rigged_shapes, .seed = how.seed})
+                                 {.shapes = read_struct(params).rigged_shapes, .seed = how.seed}, execution)
                : TrainingSet{};
     *out_model = publish_model(object->context, train(rigged ? made : object->set, how, execution));
   });
@@ -176,13 +188,13 @@ focal_status focal_model_get_info(const focal_model* model, focal_model_info* ou
     info.mean_vertex_count = static_cast<uint64_t>(from.mean_vertex_count);
     info.sample_count = static_cast<uint64_t>(from.sample_count);
     info.tree_node_count = static_cast<uint64_t>(from.tree_node_count);
-    info.file_bytes = serialise(*object->model).size();
+    info.file_bytes = object->file_bytes();
     write_result(out_info, info);
   });
 }
 
 focal_status focal_model_get_train_params(const focal_model* model, focal_train_params* out_params) {
-  return guarded([&] { write_result(out_params, to_abi(resolve<ModelObject>(model)->info.params)); });
+  return guarded([&] { write_result(out_params, abi_params_of(*resolve<ModelObject>(model))); });
 }
 
 const char* focal_model_landmark_name(const focal_model* model, uint32_t index) {

@@ -1,6 +1,7 @@
 // focal_model: what training makes and detection uses.
 #pragma once
 #include <memory>
+#include <mutex>
 
 #include "context.h"
 #include "handles.h"
@@ -15,6 +16,12 @@ struct ModelObject {
   std::shared_ptr<const ContextObject> context;
   std::shared_ptr<const LandmarkModel> model;
   ModelInfo info;
+
+  uint64_t file_bytes() const;  // of the model as a file; written once to find out
+
+ private:
+  mutable std::once_flag file_once_;
+  mutable uint64_t file_bytes_ = 0;
 };
 
 }  // namespace focal

@@ -71,7 +71,9 @@ focal_surface_point nearest_point(const focal_mesh* mesh, const Position& p) {
 }  // namespace
 
 Mesh load_mesh(const focal_context* context, const std::string& path) {
-  return owned<Mesh>(focal_mesh_load_gltf, context, path.c_str(), nullptr);
+  auto params = initialised(focal_mesh_params_init);
+  params.allow_external_files = 1;  // whoever names a .gltf means the files beside it too
+  return owned<Mesh>(focal_mesh_load_gltf, context, path.c_str(), &params);
 }
 
 focal_mesh_info info_of(const focal_mesh* mesh) {

@@ -370,8 +370,10 @@ typedef struct focal_detect_params {
   int32_t max_samples;   /* 1 or more. Default 1250 */
   int32_t peaks_per_landmark; /* candidates among which the constellation chooses, 1..64. Default 8 */
   double found_confidence;    /* below it: FOCAL_LANDMARK_UNCERTAIN. 0..1, default 0.5 */
-  double absent_confidence;   /* below it: FOCAL_LANDMARK_ABSENT. 0..found_confidence, default 0.05 */
-  int32_t keep_votes;         /* keep the vote maps in the detection. Default 1 */
+  /* Below it: FOCAL_LANDMARK_ABSENT; so is a landmark that the model has learned to tell missing, whatever
+     its confidence. 0..found_confidence, default 0.05 */
+  double absent_confidence;
+  int32_t keep_votes; /* keep the vote maps in the detection. Default 1 */
   int32_t reserved;
   uint64_t seed; /* same seed, same bits. Default 1 */
 } focal_detect_params;

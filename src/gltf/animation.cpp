@@ -112,10 +112,13 @@ std::vector<double> common_times(const std::vector<Channel>& channels, int32_t m
   return some;
 }
 
+// Of skins that a node wears: a character that was rigged anew keeps its former joints, of the same names.
 std::set<int32_t> joints_of(const json& root) {
   std::set<int32_t> joints;
-  for (const json& skin : list(root, "skins"))
-    for (const json& joint : skin["joints"]) joints.insert(joint.get<int32_t>());
+  for (const json& node : list(root, "nodes"))
+    if (const json* skin = member(node, "skin"))
+      for (const json& joint : list(root, "skins")[skin->get<size_t>()]["joints"])
+        joints.insert(joint.get<int32_t>());
   return joints;
 }
 
@@ -140,7 +143,9 @@ std::vector<GltfAnimation> read_gltf_animations(std::span<const std::byte> bytes
     for (const json& entry : list(animation, "channels"))
       if (auto channel = read_channel(root, buffers, animation, entry))
         channels.push_back(*std::move(channel));
-    if (channels.empty()) continue;
+    if (std::none_of(channels.begin(), channels.end(),
+                     [&](const Channel& channel) { return joints.contains(channel.node); }))
+      continue;
     const json* name = member(animation, "name");
     GltfAnimation one{name && name->is_string() ? name->get<std::string>() : "animation", {}, {}};
     one.times = common_times(channels, most_keys);

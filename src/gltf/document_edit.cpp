@@ -45,6 +45,21 @@ OrderedJson& shown_scene(OrderedJson& root) {
   return scenes[0];
 }
 
+std::vector<ChannelTarget> channel_targets(OrderedJson& animation) {
+  std::vector<ChannelTarget> targets;
+  OrderedJson* channels = find(animation, "channels");
+  if (!channels || !channels->is_array()) return targets;
+  for (OrderedJson& channel : *channels) {
+    ChannelTarget& one = targets.emplace_back();
+    OrderedJson* target = find(channel, "target");
+    if (!target) continue;
+    const OrderedJson *node = find(*target, "node"), *path = find(*target, "path");
+    if (node && node->is_number_integer()) one.node = node->get<int64_t>();
+    if (path && path->is_string()) one.path = path->get<std::string>();
+  }
+  return targets;
+}
+
 OrderedJson* focal_extras(OrderedJson& element) {
   OrderedJson* extras = find(element, "extras");
   return extras ? find(*extras, "focal") : nullptr;

@@ -2,6 +2,7 @@
 // the document is carried through untouched.
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
@@ -28,6 +29,13 @@ size_t append_element(OrderedJson& root, const char* list, const std::string& te
 // The scene that is shown, or the first. A file without any gets one that shows all its roots. References to members of the root
 // end here.
 OrderedJson& shown_scene(OrderedJson& root);
+
+// What the channels of an animation move. Animations are not looked at by parse_gltf: what is malformed moves node -1.
+struct ChannelTarget {
+  int64_t node = -1;
+  std::string path;
+};
+std::vector<ChannelTarget> channel_targets(OrderedJson& animation);
 
 OrderedJson* focal_extras(OrderedJson& element);  // extras.focal, or null
 

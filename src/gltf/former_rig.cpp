@@ -68,12 +68,11 @@ void FormerRigs::release_skins() {
 
 void FormerRigs::release_animations() {
   Json* animations = find(root_, "animations");
-  if (!animations) return;
+  if (!animations || !animations->is_array()) return;
   const auto moves_former_alone = [&](Json& animation) {
-    Json& channels = animation["channels"];
-    return std::all_of(channels.begin(), channels.end(), [&](Json& channel) {
-      const Json* node = find(channel["target"], "node");
-      return node && is_released(*node);
+    const auto targets = channel_targets(animation);
+    return !targets.empty() && std::all_of(targets.begin(), targets.end(), [&](const ChannelTarget& one) {
+      return one.node >= 0 && one.node < static_cast<int64_t>(released_.size()) && released_[one.node];
     });
   };
   auto& list = animations->get_ref<Json::array_t&>();

@@ -204,8 +204,7 @@ std::vector<MeshPlacement> placed_meshes(const json& root, GltfBuffers& buffers,
                        " further instances of meshes were left out; each comes once");
   if (result.empty() && !meshes.empty()) {
     warnings.push_back("no node shows a mesh; the meshes were taken as they stand");
-    for (size_t mesh = 0; mesh < meshes.size(); ++mesh)
-      result.push_back({static_cast<int32_t>(mesh)});
+    for (size_t mesh = 0; mesh < meshes.size(); ++mesh) result.push_back({static_cast<int32_t>(mesh)});
   }
   return result;
 }

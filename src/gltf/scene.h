@@ -15,7 +15,8 @@ struct MeshPlacement {
   int32_t mesh = -1;
   int32_t node = -1;  // -1: no node shows it
   Matrix4 world_transform = Matrix4::Identity();
-  bool mirrored = false;  // by the node's place: it says which way round triangles are, for skinned meshes too
+  bool mirrored =
+      false;  // by the node's place: it says which way round triangles are, for skinned meshes too
 };
 
 // Where a node stands to its parent, as an animation gives it.

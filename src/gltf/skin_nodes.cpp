@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <string>
 
 #include "base/error.h"
@@ -59,7 +60,9 @@ class SkinInserter {
   size_t place_skin(const std::string& text);
   void add_weights(const GltfPrimitive& primitive);
   void turn_triangles(const GltfPrimitive& primitive);
+  std::string free_animation_name(const std::string& name);
   void add_animation(const JointAnimation& animation);
+  bool is_animated(int32_t node);
   void attach(const GltfPrimitive& primitive, size_t skin);
   void spare_other_instances(int32_t mesh, int32_t node);
   void retire_former_skins(size_t count);
@@ -143,7 +146,9 @@ void SkinInserter::add_joint_nodes() {
   const size_t armature = pool_.take();
   put(nodes()[armature],
       R"({"name":"focal_skeleton","children":[)" + roots + R"(],"extras":{"focal":{"version":1}}})");
-  member_or_new(shown_scene(root_), "nodes", Json::value_t::array).push_back(armature);
+  // First in the scene: where names are taken twice, three.js renames the later ones.
+  auto& shown = member_or_new(shown_scene(root_), "nodes", Json::value_t::array).get_ref<Json::array_t&>();
+  shown.insert(shown.begin(), armature);
 }
 
 // The inverse bind matrices hold the place of the mesh, which glTF ignores on a skinned node: one skin for each such place.
@@ -216,6 +221,17 @@ void SkinInserter::turn_triangles(const GltfPrimitive& primitive) {
   element["indices"] = accessor;
 }
 
+// The name, or the first of name_2, name_3, ... that no animation of the file has.
+std::string SkinInserter::free_animation_name(const std::string& name) {
+  std::set<std::string> taken;
+  if (Json* animations = find(root_, "animations"); animations && animations->is_array())
+    for (Json& one : *animations)
+      if (const Json* own = find(one, "name"); own && own->is_string()) taken.insert(own->get<std::string>());
+  std::string free = name;
+  for (int number = 2; taken.contains(free); ++number) free = name + "_" + std::to_string(number);
+  return free;
+}
+
 void SkinInserter::add_animation(const JointAnimation& animation) {
   const size_t count = animation.times.size();
   if (count == 0) return;
@@ -248,8 +264,8 @@ void SkinInserter::add_animation(const JointAnimation& animation) {
   }
   if (sampler > 0)
     append_element(root_, "animations",
-                   R"({"name":)" + json_string(animation.name) + R"(,"samplers":[)" + samplers +
-                       R"(],"channels":[)" + channels + "]}");
+                   R"({"name":)" + json_string(free_animation_name(animation.name)) + R"(,"samplers":[)" +
+                       samplers + R"(],"channels":[)" + channels + "]}");
 }
 
 // Other nodes that show the mesh keep it as it was.
@@ -264,6 +280,16 @@ void SkinInserter::spare_other_instances(int32_t mesh, int32_t node) {
   }
 }
 
+bool SkinInserter::is_animated(int32_t node) {
+  Json* animations = find(root_, "animations");
+  if (!animations || !animations->is_array()) return false;
+  return std::any_of(animations->begin(), animations->end(), [&](Json& animation) {
+    const auto targets = channel_targets(animation);
+    return std::any_of(targets.begin(), targets.end(),
+                       [&](const ChannelTarget& one) { return one.node == node && one.path != "weights"; });
+  });
+}
+
 // The mesh's node gets the skin when it is a root without a place of its own; else a new root takes the mesh over.
 void SkinInserter::attach(const GltfPrimitive& primitive, size_t skin) {
   Json& roots = member_or_new(shown_scene(root_), "nodes", Json::value_t::array);
@@ -274,7 +300,7 @@ void SkinInserter::attach(const GltfPrimitive& primitive, size_t skin) {
                                      [&](const Json& n) { return n.get<int32_t>() == primitive.node; });
     const bool has_place =
         find(node, "matrix") || find(node, "translation") || find(node, "rotation") || find(node, "scale");
-    if (is_root && !has_place) {
+    if (is_root && !has_place && !is_animated(primitive.node)) {
       node["skin"] = skin;
       return;
     }

@@ -43,13 +43,14 @@ struct GltfRig {
       tips;  // per joint where its part ends, world coordinates; a leaf joint gets a node there. Or none
   std::vector<Matrix4> pose =
       {};  // where the joints stand in the file; none: as bound, so that the mesh looks as it is
-  std::vector<JointAnimation> animations = {};  // added to those of the file
+  std::vector<JointAnimation> animations =
+      {};                              // added to those of the file; names that are taken get a number
   const TriangleMesh* mesh = nullptr;  // the merged mesh of read_gltf; needed where a primitive is mirrored
 };
 
 // The source file (the same kind comes back) with a skeleton and skin weights for every mesh that it shows: a scene root
 // "focal_skeleton" with the joints below it, their places and rotations those of the bind matrices. Meshes that had a skin get
-// this one; a node that may not carry a skin (it has a place or a parent) hands its mesh to a new scene root of its name, and
+// this one; a node that may not carry a skin (it has a place or a parent, or is animated) hands its mesh to a new scene root of its name, and
 // where it mirrors, the triangles of the file are turned: those of `primitives` are mirrored no longer. What an earlier call put in
 // is replaced.
 // Everything else stays. Data goes into the BIN chunk, or into a data: URI in a .gltf. Throws what parse_gltf throws, and

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <vector>
 
@@ -124,6 +125,28 @@ Indices simplify_by_slabs(const TriangleMesh& mesh, const Positions& positions, 
   return all;
 }
 
+// Collapses leave flaps here and there: two triangles back to back, hung on an edge of the surface, which so has four. Taken away, so
+// that the surface stays manifold. (Sheets that are made of such pairs, as hair is in games, are left as they are.)
+Indices without_flaps(const Indices& indices) {
+  constexpr size_t most_share = 50;  // of all triangles: more are sheets
+  std::map<std::array<unsigned, 3>, size_t> seen;
+  std::vector<bool> dropped(indices.size() / 3, false);
+  size_t flaps = 0;
+  for (size_t t = 0; t < dropped.size(); ++t) {
+    std::array<unsigned, 3> corners = {indices[3 * t], indices[3 * t + 1], indices[3 * t + 2]};
+    std::sort(corners.begin(), corners.end());
+    const auto [other, is_new] = seen.emplace(corners, t);
+    if (is_new) continue;
+    dropped[t] = dropped[other->second] = true;
+    ++flaps;
+  }
+  if (flaps * most_share > dropped.size()) return indices;
+  Indices kept;
+  for (size_t t = 0; t < dropped.size(); ++t)
+    if (!dropped[t]) kept.insert(kept.end(), indices.begin() + 3 * t, indices.begin() + 3 * t + 3);
+  return kept;
+}
+
 Indices all_indices(const TriangleMesh& mesh) {
   return Indices(mesh.triangles.data(), mesh.triangles.data() + mesh.triangles.size());
 }
@@ -139,7 +162,7 @@ TriangleMesh decimate(const TriangleMesh& mesh, int32_t vertices, const Executio
                            ? all_indices(mesh)
                            : simplify_by_slabs(mesh, positions, vertices, execution);
   std::vector<int32_t> number(mesh.vertex_count(), -1), vertex;
-  const Indices kept = simplify_alone(some, positions, target, 0, number);
+  const Indices kept = without_flaps(simplify_alone(some, positions, target, 0, number));
   execution.check_cancelled();
   TriangleMesh result;
   result.triangles.resize(static_cast<Eigen::Index>(kept.size() / 3), 3);

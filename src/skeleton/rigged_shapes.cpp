@@ -161,7 +161,8 @@ MarkedShape posed(const MarkedShape& shape, const std::vector<SkeletonJoint>& sk
 
 }  // namespace
 
-TrainingSet training_set_of(const std::vector<RiggedMesh>& characters, const RiggedShapesParams& params) {
+TrainingSet training_set_of(const std::vector<RiggedMesh>& characters, const RiggedShapesParams& params,
+                            const Execution& execution) {
   if (characters.empty())
     throw Error(Status::invalid_argument, "there is no rigged character to learn from", "add one");
   TrainingSet set;
@@ -175,8 +176,10 @@ TrainingSet training_set_of(const std::vector<RiggedMesh>& characters, const Rig
   mark_by_skeleton(set, params.landmarks);
   const auto originals = static_cast<int32_t>(set.shapes.size());
   for (int32_t copy = 0;
-       static_cast<int32_t>(set.shapes.size()) < std::max(params.shapes, originals + originals / 2); ++copy)
+       static_cast<int32_t>(set.shapes.size()) < std::max(params.shapes, originals + originals / 2); ++copy) {
+    execution.check_cancelled();
     set.shapes.push_back(posed(set.shapes[copy % originals], set.skeleton, Random(params.seed, 9000 + copy)));
+  }
   return set;
 }
 

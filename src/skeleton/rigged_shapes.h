@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/parallel.h"
 #include "landmarks/training_set.h"
 
 namespace focal {
@@ -23,6 +24,7 @@ struct RiggedShapesParams {
 // The joints of the set are those that most of the characters have, by name, and that move some vertex or carry such a joint:
 // controls that only drive others are left out. Joints of one character that the set does not have give their weights to
 // the nearest ancestor that it has. Throws invalid_argument (no character, or none with a vertex that a joint moves).
-TrainingSet training_set_of(const std::vector<RiggedMesh>& characters, const RiggedShapesParams& params = {});
+TrainingSet training_set_of(const std::vector<RiggedMesh>& characters, const RiggedShapesParams& params = {},
+                            const Execution& execution = {});
 
 }  // namespace focal

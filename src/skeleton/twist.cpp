@@ -9,7 +9,7 @@ namespace focal {
 namespace {
 
 constexpr double usual_twist =
-    0.35;  // radians, of a bone against its parent's; chosen on left-out training characters
+    0.1;  // radians, of a bone against its parent's; chosen on left-out training characters
 constexpr double least_error = 0.05;  // radians, of any measured turn
 
 }  // namespace

@@ -97,7 +97,7 @@ TEST_CASE("a skin put into a file is read back the same") {
   const json root = parsed(written);
   CHECK(root["nodes"][0]["skin"] == 0);  // a root without a place keeps its node
   CHECK(root["skins"].size() == 1);
-  const auto& group = root["nodes"][root["scenes"][0]["nodes"].back().get<size_t>()];
+  const auto& group = root["nodes"][root["scenes"][0]["nodes"].front().get<size_t>()];
   CHECK(group["name"] == "focal_skeleton");
   CHECK(group["children"].size() == 1);
 }
@@ -191,7 +191,7 @@ TEST_CASE("a second call replaces the skeleton of the first, with its animations
 }
 
 TEST_CASE("a skeleton to which the user has hung a sword stays") {
-  std::vector<std::byte> written, again;
+  std::vector<std::byte> written;
   through_file(tetrahedron().glb(), &written);
   json root = parsed(written);
   const auto bone = root["skins"][0]["joints"][1].get<size_t>();
@@ -201,8 +201,10 @@ TEST_CASE("a skeleton to which the user has hung a sword stays") {
   root["nodes"].push_back({{"name", "sword"}, {"mesh", 1}});
   root["nodes"][bone]["children"].push_back(root["nodes"].size() - 1);
   const auto bin = open_container(written, {}).bin;
-  through_file(glb_bytes(root.dump(), bin_chunk(bin)), &again);
-  const json after = parsed(again);
+  const auto armed = glb_bytes(root.dump(), bin_chunk(bin));
+  const GltfMesh mesh = read_gltf_memory(armed);
+  const Rig rig = two_joints(8);
+  const json after = parsed(add_skin(armed, mesh.primitives, {&rig, tips(), {}, {}, &mesh.mesh}));
   CHECK(after["nodes"][bone]["name"] == root["nodes"][bone]["name"]);
   CHECK(after["skins"].size() == 3);  // the old one, and one for each place of a mesh
 }
@@ -219,6 +221,28 @@ TEST_CASE("a mesh that its node mirrors stays right side out") {
   CHECK(after.mesh.triangles == before.mesh.triangles);  // counter-clockwise from outside in both
   const Rig rig = two_joints(4);
   CHECK_THROWS_AS(add_skin(source, before.primitives, {&rig, {}}), Error);  // without the triangles
+}
+
+TEST_CASE("animations of the file keep their names and their nodes") {
+  GltfBuilder file = tetrahedron();
+  const int times = file.add_accessor(std::vector<float>{0, 1}, "SCALAR");
+  const int places = file.add_accessor(std::vector<float>{0, 0, 0, 0, 1, 0}, "VEC3");
+  file.root["animations"] =
+      json::array({{{"name", "wave"},
+                    {"samplers", {{{"input", times}, {"output", places}}}},
+                    {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}}},
+                   {{"name", 7}, {"channels", "none"}}});  // what is malformed is carried through
+  const auto source = file.glb();
+  const GltfMesh mesh = read_gltf_memory(source);
+  const Rig rig = two_joints(4);
+  JointAnimation wave{"wave", {0, 1}, std::vector<JointKeys>(2)};
+  wave.joints[1].translation = {{0, 0, 0}, {0, 1, 0}};
+  const json root = parsed(add_skin(source, mesh.primitives, {&rig, tips(), {}, {wave}, &mesh.mesh}));
+  REQUIRE(root["animations"].size() == 3);
+  CHECK(root["animations"][0] == file.root["animations"][0]);
+  CHECK(root["animations"][2]["name"] == "wave_2");
+  CHECK_FALSE(root["nodes"][0].contains(
+      "skin"));  // glTF ignores the place of a node with a skin: it would stop moving
 }
 
 TEST_CASE("what a skin lacks") {
