@@ -135,27 +135,32 @@ def shots():
     yield from click_tab()
     yield 1
     shoot("landmarks")
-    show(bpy.data.objects[TRAINING[0]])
+    yield from training_shot()
+    yield from detection_shots(bpy.data.objects[OTHER])
+
+
+def training_shot():
+    settings, jobs = bpy.context.scene.focal, sys.modules[MODULE + ".jobs"]
     open_panels("Landmarks", "Train")
-    bpy.context.scene.focal.quality = "DRAFT"
-    yield 1
+    settings.quality = "DRAFT"
     call(bpy.ops.focal.cross_validate, "INVOKE_DEFAULT")
-    jobs = sys.modules[MODULE + ".jobs"]
     while jobs.current() is not None:
         yield 0.5
-    bpy.context.scene.focal.quality = "FULL"
+    settings.quality = "FULL"
     call(bpy.ops.focal.train, "INVOKE_DEFAULT")
-    yield 8
+    while jobs.current().progress() < 0.35:
+        yield 0.5
     shoot("train")
     while jobs.current() is not None:
         yield 0.5
-    other = bpy.data.objects[OTHER]
-    bpy.context.scene.focal.empties = False
+
+
+def detection_shots(other):
+    settings = bpy.context.scene.focal
+    settings.empties, settings.template_path = False, "//humanoid.json"
     open_panels("Landmarks", "Detect")
-    hurt = without_a_hand(other)
-    show(hurt)
+    show(without_a_hand(other))
     call(bpy.ops.focal.detect)
-    call(bpy.ops.focal.next_uncertain)
     yield 1
     shoot("detect")
     show(other)
@@ -164,7 +169,6 @@ def shots():
     call(bpy.ops.focal.show_votes)
     yield 1
     shoot("votes")
-    bpy.context.scene.focal.template_path = "//humanoid.json"
     open_panels("Rig", "Segment", "Collection")
     call(bpy.ops.focal.segment)
     yield 1

@@ -1,7 +1,7 @@
 """The sidebar: press N in the 3D view, tab "focal"."""
 import bpy
 
-from . import detection, engine, jobs, landmark_data, names
+from . import engine, jobs, landmark_data, names
 from .geometry import armature_of, problem_of
 from .landmark_data import active_of
 from .preferences import draw_problem, wrapped
