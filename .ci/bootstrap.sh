@@ -5,7 +5,7 @@ set -eu
 packages="g++ cmake ninja-build pkgconf libeigen3-dev libspectra-dev libtinygltf-dev nlohmann-json3-dev
   libmeshoptimizer-dev libcli11-dev doctest-dev"
 if [ "${1:-}" = ci ]; then
-  packages="$packages abigail-tools chromium clang-format-14 python3-numpy valgrind"
+  packages="$packages abigail-tools chromium clang-format-14 python3-numpy valgrind blender xvfb"
   command -v node > /dev/null || packages="$packages nodejs npm"
 fi
 

@@ -1,0 +1,29 @@
+"""focal for Blender: mark a few points on some meshes, learn them, find them on new ones, and rig those."""
+bl_info = {
+    "name": "focal",
+    "description": "Learn landmarks and rigs from a few meshes, find them on others",
+    "author": "The focal authors",
+    "version": (0, 1, 0),
+    "blender": (3, 3, 0),
+    "location": "3D View > Sidebar > focal",
+    "category": "Rigging",
+}
+
+from . import (batch, detection, engine, jobs, landmark_edit, landmark_pick, overlay, panels, preferences,  # noqa: E402
+               properties, rigging, segmentation, training)
+
+_MODULES = (properties, preferences, jobs, landmark_edit, landmark_pick, training, detection, rigging, segmentation,
+            batch, panels, overlay)
+
+
+def register():
+    for module in _MODULES:
+        module.register()
+    # A missing library must not keep the add-on from being switched on: its preferences are where it is mended.
+    if not engine.ready():
+        print(f"focal: {engine.problem()}")
+
+
+def unregister():
+    for module in reversed(_MODULES):
+        module.unregister()

@@ -1,0 +1,71 @@
+"""All meshes of a collection in one go, and one step of undo."""
+import bpy
+
+from .detection import Target, write_landmarks
+from .engine import FAILURES, message_of
+from .geometry import Unusable
+from .jobs import Cancelled, JobOperator
+from .rigging import RigTarget, write_rig
+
+
+class FOCAL_OT_batch(JobOperator, bpy.types.Operator):
+    """Detect landmarks on every mesh of the collection, and rig it where that is ticked. What cannot be done is told
+at the end and does not stop the others. Esc cancels"""
+    bl_idname = "focal.batch"
+    bl_label = "Run on Collection"
+    bl_options = {"REGISTER", "UNDO"}
+
+    def prepare(self, context):
+        settings = context.scene.focal
+        if settings.batch is None:
+            raise Unusable("Choose a collection")
+        self._rig, self._failed, targets = settings.batch_rig, [], []
+        for obj in settings.batch.all_objects:
+            if obj.type != "MESH":
+                continue
+            try:
+                targets.append((RigTarget if self._rig else Target)(context, obj))
+            except Unusable as error:
+                self._failed.append(str(error))
+        if not targets:
+            raise Unusable("; ".join(self._failed) or f"'{settings.batch.name}' holds no mesh")
+        return lambda job: self._work(job, targets)
+
+    def _work(self, job, targets):
+        done = []
+        for number, target in enumerate(targets):
+            share = number / len(targets), (number + 1) / len(targets)
+            try:
+                result = target.rig(job, *share) if self._rig else target.detect(job, *share)
+            except FAILURES as error:
+                if job.cancelled:
+                    raise Cancelled from error
+                self._failed.append(f"'{target.surface.name}': {message_of(error)}")
+                continue
+            target.known = target.positions = target.faces = None  # a long list would fill the memory
+            done.append((target, result))
+        return done
+
+    def apply(self, context, done):
+        written = 0
+        for target, result in done:
+            try:
+                obj = target.object()
+                if self._rig:
+                    write_rig(context, obj, target, result)
+                else:
+                    write_landmarks(context, obj, target, result)
+                written += 1
+            except Unusable as error:
+                self._failed.append(str(error))
+        context.scene.focal.report = "\n".join(self._failed)
+        text = f"{written} meshes" + (f", {len(self._failed)} left out: {self._failed[0]}" if self._failed else "")
+        self.report({"WARNING"} if self._failed else {"INFO"}, text)
+
+
+def register():
+    bpy.utils.register_class(FOCAL_OT_batch)
+
+
+def unregister():
+    bpy.utils.unregister_class(FOCAL_OT_batch)

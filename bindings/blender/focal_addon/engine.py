@@ -1,0 +1,101 @@
+"""The focal package inside the add-on: its library found and loaded once, its context as the preferences say."""
+import functools
+import os
+import platform
+
+import bpy
+
+from . import focal as _package
+
+# The library stays loaded as long as Blender runs, also when the add-on is switched off and on again.
+_problem = ""
+_loaded_from = None
+
+
+def package():
+    """The package, in any thread; what started the thread has called focal()."""
+    return _package
+
+
+def focal():
+    """The package, in the main thread; EngineMissing when its library cannot be used."""
+    if not ready():
+        raise EngineMissing(_problem)
+    return _package
+
+
+class EngineMissing(Exception):
+    """Why there is no library, in words for the user."""
+
+
+# What work may fail with for reasons outside of the add-on.
+FAILURES = (EngineMissing, _package.Error, _package.LibraryError, OSError, ValueError)
+
+
+def message_of(error):
+    """For operator reports: one line, the hint as a second sentence."""
+    hint = getattr(error, "hint", "")
+    text = getattr(error, "message", "") or str(error)
+    return f"{text.rstrip('.')}. {hint[:1].upper()}{hint[1:]}" if hint else text
+
+
+def ready():
+    """Whether the library is loaded; tries to when it is not."""
+    global _problem, _loaded_from
+    if _loaded_from is None:
+        try:
+            _loaded_from = _package.load_library(_wanted_path())
+            _problem = ""
+        except _package.LibraryError as error:
+            _problem = _explained(str(error))
+    return _loaded_from is not None
+
+
+def waits_for_restart():
+    """Whether the preferences name another library than the one that runs."""
+    wanted = _wanted_path()
+    return bool(_loaded_from and wanted and os.path.realpath(wanted) != os.path.realpath(_loaded_from))
+
+
+def problem():
+    """Why not ready, '' when it is; found by the last call of ready()."""
+    return _problem
+
+
+def version():
+    return _package.version()
+
+
+def _wanted_path():
+    path = bpy.path.abspath(preferences().library_path)
+    return path if path else None
+
+
+def preferences():
+    return bpy.context.preferences.addons[__package__].preferences
+
+
+def _explained(text):
+    """The package's message is for programmers: name the download and the setting."""
+    first = text.split("\n")[0]
+    system = {"Linux": "linux", "Windows": "windows", "Darwin": "macos"}.get(platform.system(), platform.system())
+    machine = {"x86_64": "x64", "AMD64": "x64", "aarch64": "arm64", "arm64": "arm64"}.get(
+        platform.machine(), platform.machine())
+    return (f"{first}\nThis zip may be for another system. Install focal_addon-{system}-{machine}.zip, "
+            "or set the library's path in the add-on's preferences.")
+
+
+def threads():
+    """One processor is left to Blender unless the preferences say otherwise."""
+    return preferences().threads or max(1, (os.cpu_count() or 2) - 1)
+
+
+@functools.lru_cache(maxsize=4)
+def _context(thread_count, backend):
+    return _package.Context(thread_count=thread_count, backend=backend)
+
+
+def context():
+    """How calls run now. Read it in the main thread, use it in any."""
+    focal()
+    return _context(threads(), preferences().backend.lower())

@@ -1,0 +1,162 @@
+"""Meshes of Blender as arrays for focal, and places on their surface.
+
+focal gets each mesh as a glTF file would hold it: Y up, the object's rotation and scale applied, so that models go
+back and forth between Blender and the command. The location is left out: far from the origin floats get coarse.
+"""
+import hashlib
+
+import bpy
+import numpy
+from mathutils import Matrix, Vector
+from mathutils.bvhtree import BVHTree
+
+# Blender (x, y, z) is glTF (x, z, -y).
+TO_GLTF = Matrix(((1, 0, 0, 0), (0, 0, 1, 0), (0, -1, 0, 0), (0, 0, 0, 1)))
+FROM_GLTF = TO_GLTF.transposed()
+
+# Modifiers without which the stored mesh is not the shape that the user sees.
+_SHAPING = {"MIRROR": "half of the shape", "ARRAY": "one piece of the shape", "BOOLEAN": "another shape",
+            "REMESH": "another surface", "SKIN": "only the edges", "SCREW": "only the profile"}
+
+
+class Unusable(Exception):
+    """Why an object cannot be worked on, in words for the user."""
+
+
+def problem_of(obj):
+    """Why focal cannot work on the object, or ''. Cheap enough for a panel's draw."""
+    if obj is None:
+        return "Select a mesh"
+    if obj.type != "MESH":
+        return f"'{obj.name}' is no mesh ({obj.type.replace('_', ' ').lower()}): select a mesh"
+    if obj.library is not None or obj.data.library is not None:
+        return f"'{obj.name}' is linked from another file: make it local first"
+    if not obj.data.polygons and obj.mode != "EDIT":
+        return f"'{obj.name}' has no faces"
+    if abs(obj.matrix_world.determinant()) < 1e-12:
+        return f"'{obj.name}' is flat: one of its scales is 0"
+    for modifier in obj.modifiers:
+        if modifier.type in _SHAPING and modifier.show_viewport:
+            return (f"'{obj.name}' has the modifier '{modifier.name}', without which it is "
+                    f"{_SHAPING[modifier.type]}: apply it first, or switch it off")
+    return ""
+
+
+def hints_of(obj):
+    """What works but may surprise, as sentences."""
+    hints = []
+    scale = obj.matrix_world.to_scale()
+    if max(abs(s - scale[0]) for s in scale) > 1e-3 * abs(scale[0]):
+        hints.append("its scale differs between axes: apply it (Ctrl A) before exporting a rig")
+    if any(m.type == "NODES" and m.show_viewport for m in obj.modifiers):  # many only set normals
+        hints.append("its geometry nodes were not looked at")
+    if obj.data.shape_keys:
+        hints.append("its shape keys are left as they are; the basis was used")
+    return hints
+
+
+def armature_of(obj):
+    """The armature that moves the object, or None."""
+    for modifier in obj.modifiers:
+        if modifier.type == "ARMATURE" and modifier.object is not None:
+            return modifier.object
+    return obj.parent if obj.parent is not None and obj.parent.type == "ARMATURE" else None
+
+
+class Surface:
+    """The triangles of one object, local and as focal sees them. Holds arrays only, so any thread may use it."""
+
+    def __init__(self, obj):
+        problem = problem_of(obj)
+        if problem:
+            raise Unusable(problem)
+        if obj.mode == "EDIT":
+            obj.update_from_editmode()
+        self.name = obj.name
+        self.local = _local_positions(obj.data)
+        self.triangles, self.polygons = _triangles(obj.data)
+        if not len(self.triangles):
+            raise Unusable(f"'{obj.name}' has no faces")
+        if not numpy.isfinite(self.local).all():
+            raise Unusable(f"'{obj.name}' has a vertex at no finite place")
+        self.to_focal = TO_GLTF @ obj.matrix_world.to_3x3().to_4x4()
+        # A mirrored object shows its faces from behind: focal wants them counter-clockwise from outside.
+        self.mirrored = self.to_focal.determinant() < 0
+
+    def positions(self):
+        rotation = numpy.array(self.to_focal.to_3x3(), dtype=numpy.float64)
+        return numpy.ascontiguousarray(self.local @ rotation.T, dtype=numpy.float32)
+
+    def faces(self):
+        order = [0, 2, 1] if self.mirrored else [0, 1, 2]
+        return numpy.ascontiguousarray(self.triangles[:, order])
+
+    def turned(self, barycentric):
+        """Weights in the order of the faces that focal sees, from ours, or back."""
+        a, b, c = (float(w) for w in barycentric)
+        return (a, c, b) if self.mirrored else (a, b, c)
+
+    def at(self, triangle, barycentric):
+        """The local position of a place of ours."""
+        return Vector(numpy.asarray(barycentric, dtype=float) @ self.local[self.triangles[triangle]])
+
+    def size(self):
+        """The diagonal of the local bounding box."""
+        return float(numpy.linalg.norm(self.local.max(axis=0) - self.local.min(axis=0)))
+
+    def tree(self):
+        return BVHTree.FromPolygons(self.local.tolist(), self.triangles.tolist())
+
+    def barycentric(self, triangle, position):
+        """Weights of a point in the plane of a triangle, clamped to it."""
+        a, b, c = self.local[self.triangles[triangle]].astype(float)
+        u, v, w = b - a, c - a, numpy.asarray(position, dtype=float) - a
+        uu, uv, vv, wu, wv = u @ u, u @ v, v @ v, w @ u, w @ v
+        area = uu * vv - uv * uv
+        if area <= 0:
+            return (1.0, 0.0, 0.0)
+        weights = numpy.clip([(vv * wu - uv * wv) / area, (uu * wv - uv * wu) / area], 0, 1)
+        weights /= max(1.0, weights.sum())
+        return (float(1 - weights.sum()), float(weights[0]), float(weights[1]))
+
+    def key(self):
+        """Differs when anything that focal sees differs."""
+        digest = hashlib.blake2b(self.positions().tobytes(), digest_size=16)
+        digest.update(self.faces().tobytes())
+        return digest.hexdigest()
+
+
+def _local_positions(mesh):
+    """Of the basis where there are shape keys: what they show now is not the shape."""
+    source = mesh.shape_keys.reference_key.data if mesh.shape_keys else mesh.vertices
+    positions = numpy.empty(len(source) * 3, dtype=numpy.float32)
+    source.foreach_get("co", positions)
+    return positions.reshape(-1, 3)
+
+
+def _triangles(mesh):
+    mesh.calc_loop_triangles()
+    count = len(mesh.loop_triangles)
+    triangles = numpy.empty(count * 3, dtype=numpy.int32)
+    polygons = numpy.empty(count, dtype=numpy.int32)
+    mesh.loop_triangles.foreach_get("vertices", triangles)
+    mesh.loop_triangles.foreach_get("polygon_index", polygons)
+    return triangles.reshape(-1, 3).astype(numpy.uint32), polygons
+
+
+def selected_meshes(context):
+    """The active mesh first, then the other selected ones."""
+    active = context.active_object
+    chosen = [o for o in context.selected_objects if o.type == "MESH"]
+    if active is not None and active in chosen:
+        chosen.remove(active)
+        chosen.insert(0, active)
+    return chosen
+
+
+def object_named(name):
+    """The object of this name as it is now: undo replaces objects, so none is kept while work runs."""
+    obj = bpy.data.objects.get(name)
+    if obj is None:
+        raise Unusable(f"'{name}' is no longer there")
+    return obj

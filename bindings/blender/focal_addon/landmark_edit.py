@@ -1,0 +1,268 @@
+"""The list of landmarks and what its buttons do."""
+import os
+
+import bpy
+from bpy.props import BoolProperty, StringProperty
+from bpy_extras.io_utils import ExportHelper, ImportHelper
+from mathutils import Vector
+
+from . import display, landmark_data, landmark_file, names
+from .geometry import FROM_GLTF, TO_GLTF, Surface, Unusable
+from .landmark_data import active_of, ensure, place_near
+from .landmark_file import LandmarkFileError
+
+
+class LandmarkOperator:
+    """Works on the active mesh; what it cannot work on is reported, never raised."""
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        return context.active_object is not None and context.active_object.type == "MESH"
+
+    def execute(self, context):
+        try:
+            self.change(context, context.active_object)
+        except (Unusable, LandmarkFileError) as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        display.refresh(context, context.active_object)
+        return {"FINISHED"}
+
+
+class FOCAL_OT_landmark_add(LandmarkOperator, bpy.types.Operator):
+    """Add a name to the list; place it by clicking on the mesh"""
+    bl_idname = "focal.landmark_add"
+    bl_label = "Add Landmark"
+
+    name: StringProperty(name="Name", default="point")
+
+    def change(self, context, obj):
+        mark = obj.focal.landmarks.add()
+        mark.name = names.free_name(self.name, {m.name for m in obj.focal.landmarks})
+        obj.focal.active = len(obj.focal.landmarks) - 1
+
+
+class FOCAL_OT_landmark_remove(LandmarkOperator, bpy.types.Operator):
+    """Remove landmarks from this mesh"""
+    bl_idname = "focal.landmark_remove"
+    bl_label = "Remove Landmark"
+
+    all: BoolProperty(name="All", options={"SKIP_SAVE"})
+
+    def change(self, context, obj):
+        if self.all:
+            obj.focal.landmarks.clear()
+        else:
+            obj.focal.landmarks.remove(obj.focal.active)
+        obj.focal.active = max(0, min(obj.focal.active, len(obj.focal.landmarks) - 1))
+
+
+class FOCAL_OT_landmark_unplace(LandmarkOperator, bpy.types.Operator):
+    """Take the place of this landmark away"""
+    bl_idname = "focal.landmark_unplace"
+    bl_label = "Clear Place"
+
+    absent: BoolProperty(name="Absent", options={"SKIP_SAVE"},
+                         description="This mesh does not have it: it is passed over")
+
+    def change(self, context, obj):
+        landmark_data.unplace(_active(obj), "ABSENT" if self.absent else "UNPLACED")
+
+
+class FOCAL_OT_landmark_cursor(LandmarkOperator, bpy.types.Operator):
+    """Place the active landmark where the surface is nearest to the 3D cursor"""
+    bl_idname = "focal.landmark_cursor"
+    bl_label = "Place at Cursor"
+
+    def change(self, context, obj):
+        surface = Surface(obj)
+        mark = active_of(obj) or ensure(obj, "point")
+        position = obj.matrix_world.inverted() @ context.scene.cursor.location
+        place_near(obj, mark, surface, surface.tree(), position)
+
+
+class FOCAL_OT_landmark_snap(LandmarkOperator, bpy.types.Operator):
+    """Bring landmarks back onto the surface: after the mesh was edited, or to where their empties were moved"""
+    bl_idname = "focal.landmark_snap"
+    bl_label = "Snap to Surface"
+
+    def change(self, context, obj):
+        surface = Surface(obj)
+        tree, moved = surface.tree(), landmark_data.snap_stale(obj, surface)
+        for mark in obj.focal.landmarks:
+            place = display.empty_place(obj, mark.name)
+            if place is None or (mark.placed and (place - mark.position).length < 1e-5 * surface.size()):
+                continue
+            place_near(obj, mark, surface, tree, place)
+            moved += 1
+        self.report({"INFO"}, f"{moved} landmark{'' if moved == 1 else 's'} moved")
+
+
+class FOCAL_OT_landmark_next(LandmarkOperator, bpy.types.Operator):
+    """Go to the next landmark that has no place"""
+    bl_idname = "focal.landmark_next"
+    bl_label = "Next Unplaced"
+
+    def change(self, context, obj):
+        at = landmark_data.next_unplaced(obj, obj.focal.active)
+        if at < 0:
+            self.report({"INFO"}, "All landmarks are placed")
+        else:
+            obj.focal.active = at
+
+
+class FOCAL_OT_landmark_accept(LandmarkOperator, bpy.types.Operator):
+    """This place is right: keep it as if it was marked by hand"""
+    bl_idname = "focal.landmark_accept"
+    bl_label = "Accept"
+
+    all: BoolProperty(name="All", options={"SKIP_SAVE"}, description="Every landmark that has a place")
+
+    def change(self, context, obj):
+        for mark in obj.focal.landmarks if self.all else [_active(obj)]:
+            if mark.placed:
+                mark.status, mark.confidence, mark.expected_error = "MARKED", 1.0, 0.0
+
+
+class FOCAL_OT_landmark_runner_up(LandmarkOperator, bpy.types.Operator):
+    """Use the second-best place that the model found; again: back"""
+    bl_idname = "focal.landmark_runner_up"
+    bl_label = "Second Best"
+
+    @classmethod
+    def poll(cls, context):
+        mark = active_of(context.active_object)
+        return mark is not None and mark.runner_up_triangle >= 0
+
+    def change(self, context, obj):
+        mark, surface = _active(obj), Surface(obj)
+        if mark.runner_up_triangle >= len(surface.triangles):
+            raise Unusable("The mesh was changed since: detect again")
+        old = mark.triangle, tuple(mark.barycentric), mark.confidence
+        new = mark.runner_up_triangle, tuple(mark.runner_up_barycentric), mark.runner_up_confidence
+        landmark_data.place(obj, mark, surface, new[0], new[1], "UNCERTAIN")
+        mark.confidence = new[2]
+        mark.runner_up_triangle, mark.runner_up_barycentric, mark.runner_up_confidence = old
+
+
+class FOCAL_OT_landmark_mirror_names(LandmarkOperator, bpy.types.Operator):
+    """Add the names of the other side: elbow.L brings elbow.R, LeftHand brings RightHand"""
+    bl_idname = "focal.landmark_mirror_names"
+    bl_label = "Add Other Side"
+
+    def change(self, context, obj):
+        missing = names.missing_mirrors([m.name for m in obj.focal.landmarks])
+        for name in missing:
+            ensure(obj, name)
+        self.report({"INFO"}, ("Added " + ", ".join(missing)) if missing else "Every name has its other side")
+
+
+class FOCAL_OT_landmark_copy_names(LandmarkOperator, bpy.types.Operator):
+    """Bring the names of the first training mesh to this one, to be placed here"""
+    bl_idname = "focal.landmark_copy_names"
+    bl_label = "Names of the Training Meshes"
+
+    def change(self, context, obj):
+        sources = [i.object for i in context.scene.focal.training if i.object is not None and i.object != obj]
+        wanted = [m.name for source in sources for m in source.focal.landmarks]
+        if not wanted:
+            raise Unusable("No training mesh has landmarks yet: mark one and add it to the training list")
+        for name in wanted:
+            ensure(obj, name)
+
+
+class FOCAL_OT_landmark_import(LandmarkOperator, bpy.types.Operator, ImportHelper):
+    """Read a landmark file of focal for the active mesh"""
+    bl_idname = "focal.landmark_import"
+    bl_label = "Import Landmarks"
+
+    filename_ext = ".json"
+    filter_glob: StringProperty(default="*.json", options={"HIDDEN"})
+
+    def change(self, context, obj):
+        marks = landmark_file.read(self.filepath)
+        surface = Surface(obj)
+        tree = surface.tree()
+        to_local = obj.matrix_world.inverted() @ FROM_GLTF
+        worst = 0.0
+        for entry in marks:
+            mark = ensure(obj, entry["name"])
+            if entry.get("status") == "absent":
+                landmark_data.unplace(mark, "ABSENT")
+                continue
+            status = {"found": "FOUND", "uncertain": "UNCERTAIN"}.get(entry.get("status"), "MARKED")
+            position = _local_place(entry, surface, to_local)
+            worst = max(worst, place_near(obj, mark, surface, tree, position, status))
+            mark.confidence = entry.get("confidence", 1.0)
+        if worst > 0.02 * surface.size():
+            self.report({"WARNING"}, f"Some landmarks were {worst:.3g} away from the surface: is it their mesh?")
+        else:
+            self.report({"INFO"}, f"{len(marks)} landmarks")
+
+
+class FOCAL_OT_landmark_export(LandmarkOperator, bpy.types.Operator, ExportHelper):
+    """Write the landmarks of the active mesh to a file that focal reads"""
+    bl_idname = "focal.landmark_export"
+    bl_label = "Export Landmarks"
+    bl_options = {"REGISTER"}
+
+    filename_ext = ".landmarks.json"
+    filter_glob: StringProperty(default="*.json", options={"HIDDEN"})
+
+    def change(self, context, obj):
+        surface = Surface(obj)
+        landmark_data.snap_stale(obj, surface)
+        to_file = TO_GLTF @ obj.matrix_world
+        entries = [_entry_of(mark, surface, to_file) for mark in obj.focal.landmarks if mark.status != "UNPLACED"]
+        if not entries:
+            raise Unusable(f"'{obj.name}' has no landmarks")
+        landmark_file.write(self.filepath, obj.name + ".glb", entries)
+        self.report({"INFO"}, f"{len(entries)} landmarks in {os.path.basename(self.filepath)}")
+
+
+def _local_place(entry, surface, to_local):
+    """Positions come first: numbers of triangles hold only for a mesh whose triangles are in the file's order."""
+    if "position" in entry:
+        return to_local @ Vector(entry["position"])
+    if "triangle" in entry and entry["triangle"] < len(surface.triangles):
+        return surface.at(entry["triangle"], entry["barycentric"])
+    if "vertex" in entry and entry["vertex"] < len(surface.local):
+        return Vector(surface.local[entry["vertex"]])
+    raise Unusable(f"Landmark '{entry['name']}' lies on a triangle or vertex that '{surface.name}' does not have")
+
+
+def _entry_of(mark, surface, to_file):
+    entry = {"name": mark.name}
+    status = {"FOUND": "found", "UNCERTAIN": "uncertain", "ABSENT": "absent"}.get(mark.status)
+    if status:
+        entry["status"] = status
+        entry["confidence"] = round(mark.confidence, 6)
+    if mark.placed:
+        entry["triangle"] = mark.triangle
+        entry["barycentric"] = [round(w, 7) for w in surface.turned(mark.barycentric)]
+        entry["position"] = [round(x, 7) for x in to_file @ Vector(mark.position)]
+    return entry
+
+
+def _active(obj):
+    mark = active_of(obj)
+    if mark is None:
+        raise Unusable(f"'{obj.name}' has no landmarks yet")
+    return mark
+
+
+CLASSES = (FOCAL_OT_landmark_add, FOCAL_OT_landmark_remove, FOCAL_OT_landmark_unplace, FOCAL_OT_landmark_cursor,
+           FOCAL_OT_landmark_snap, FOCAL_OT_landmark_next, FOCAL_OT_landmark_accept, FOCAL_OT_landmark_runner_up,
+           FOCAL_OT_landmark_mirror_names, FOCAL_OT_landmark_copy_names, FOCAL_OT_landmark_import,
+           FOCAL_OT_landmark_export)
+
+
+def register():
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
+
+
+def unregister():
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

@@ -1,0 +1,162 @@
+"""Placing landmarks by clicking on the mesh, one name after the other."""
+import bpy
+from bpy_extras.view3d_utils import region_2d_to_origin_3d, region_2d_to_vector_3d
+
+from . import display, landmark_data, names
+from .geometry import Surface, Unusable
+from .landmark_data import active_of
+
+_LOOKING = {"MIDDLEMOUSE", "WHEELUPMOUSE", "WHEELDOWNMOUSE", "TRACKPADPAN", "TRACKPADZOOM", "NDOF_MOTION", "MOUSEMOVE",
+            "INBETWEEN_MOUSEMOVE"}
+_END = {"ESC", "RIGHTMOUSE", "RET", "NUMPAD_ENTER"}
+
+
+class FOCAL_OT_landmark_pick(bpy.types.Operator):
+    """Click on the mesh to place the active landmark and go on to the next one without a place.
+Backspace takes the last one back, Tab passes over, Esc or the right button ends"""
+    bl_idname = "focal.landmark_pick"
+    bl_label = "Place by Clicking"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        return (context.active_object is not None and context.active_object.type == "MESH"
+                and context.active_object.mode == "OBJECT")
+
+    def invoke(self, context, event):
+        if context.area is None or context.area.type != "VIEW_3D":
+            self.report({"ERROR"}, "Start it from the 3D view")
+            return {"CANCELLED"}
+        try:
+            self._surface = Surface(context.active_object)
+        except Unusable as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        self._tree = self._surface.tree()
+        self._object = context.active_object.name
+        self._past = []  # (number, what it was) of each placed one
+        self._only_add = not len(context.active_object.focal.landmarks)
+        context.window.cursor_modal_set("CROSSHAIR")
+        context.window_manager.modal_handler_add(self)
+        self._tell(context)
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context, event):
+        if context.active_object is None or context.active_object.name != self._object:
+            return self._end(context)
+        if event.type in _END and event.value == "PRESS":
+            return self._end(context)
+        region = _view_below(context, event)
+        if event.type in _LOOKING or region is None:
+            return {"PASS_THROUGH"}
+        if event.value == "PRESS":
+            if event.type == "LEFTMOUSE":
+                self._click(context, event, region)
+            elif event.type in {"BACK_SPACE", "Z"}:
+                self._take_back(context)
+            elif event.type == "TAB":
+                self._go_on(context.active_object)
+            self._tell(context)
+        return {"RUNNING_MODAL"}
+
+    def cancel(self, context):
+        self._end(context)
+
+    def _click(self, context, event, region):
+        obj = context.active_object
+        coordinates = event.mouse_x - region.x, event.mouse_y - region.y
+        view = context.area.spaces.active.region_3d
+        to_local = obj.matrix_world.inverted()
+        origin = to_local @ region_2d_to_origin_3d(region, view, coordinates)
+        direction = to_local.to_3x3() @ region_2d_to_vector_3d(region, view, coordinates)
+        location, _normal, triangle, _distance = self._tree.ray_cast(origin, direction.normalized())
+        if location is None:
+            return
+        mark = self._next_mark(obj)
+        self._past.append((obj.focal.active, _state_of(mark)))
+        landmark_data.place(obj, mark, self._surface, triangle, self._surface.barycentric(triangle, location))
+        self._go_on(obj)
+        display.refresh(context, obj)
+
+    def _next_mark(self, obj):
+        """Without names to fill in, each click makes a new landmark."""
+        mark = active_of(obj)
+        if mark is None or (self._only_add and mark.placed):
+            mark = obj.focal.landmarks.add()
+            mark.name = names.free_name("point", {m.name for m in obj.focal.landmarks})
+            obj.focal.active = len(obj.focal.landmarks) - 1
+        return mark
+
+    def _go_on(self, obj):
+        """Pairs are marked together: after elbow.L comes elbow.R where that has no place yet."""
+        mark = active_of(obj)
+        partner = landmark_data.index_of(obj, names.mirrored(mark.name) or "") if mark is not None else -1
+        if partner >= 0 and obj.focal.landmarks[partner].status == "UNPLACED":
+            obj.focal.active = partner
+            return
+        at = landmark_data.next_unplaced(obj, obj.focal.active)
+        if at >= 0:
+            obj.focal.active = at
+
+    def _take_back(self, context):
+        if not self._past:
+            return
+        obj = context.active_object
+        number, state = self._past.pop()
+        if number < len(obj.focal.landmarks):
+            obj.focal.active = number
+            _restore(obj.focal.landmarks[number], state)
+            display.refresh(context, obj)
+
+    def _tell(self, context):
+        mark = active_of(context.active_object)
+        placed, total, _ = landmark_data.counts(context.active_object)
+        what = f"{mark.name}  ({placed} of {total} placed)" if mark is not None else "a new landmark"
+        context.workspace.status_text_set(
+            f"Click: {what}      Backspace: take back      Tab: pass over      Esc: end")
+        if context.area is not None:
+            context.area.header_text_set(f"Click on the mesh: {what}")
+
+    def _end(self, context):
+        context.window.cursor_modal_restore()
+        context.workspace.status_text_set(None)
+        for area in context.screen.areas:
+            if area.type == "VIEW_3D":
+                area.header_text_set(None)
+        return {"FINISHED"} if self._past else {"CANCELLED"}
+
+
+def _view_below(context, event):
+    """The region of the 3D view that the mouse is over, None over panels and other editors."""
+    if context.area is None or context.area.type != "VIEW_3D":
+        return None
+    found = None
+    for region in context.area.regions:
+        inside = (region.x <= event.mouse_x < region.x + region.width
+                  and region.y <= event.mouse_y < region.y + region.height and region.width > 1)
+        if inside and region.type != "WINDOW":
+            return None  # panels lie over the view
+        if inside:
+            found = region
+    return found
+
+
+_FIELDS = ("triangle", "status", "confidence", "expected_error")
+
+
+def _state_of(mark):
+    return [getattr(mark, f) for f in _FIELDS] + [tuple(mark.barycentric), tuple(mark.position)]
+
+
+def _restore(mark, state):
+    for field, value in zip(_FIELDS, state):
+        setattr(mark, field, value)
+    mark.barycentric, mark.position = state[-2:]
+
+
+def register():
+    bpy.utils.register_class(FOCAL_OT_landmark_pick)
+
+
+def unregister():
+    bpy.utils.unregister_class(FOCAL_OT_landmark_pick)

@@ -1,0 +1,123 @@
+"""What the add-on keeps in the file: landmarks with each object, settings and the training list with the scene."""
+import bpy
+from bpy.props import (BoolProperty, CollectionProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty,
+                       PointerProperty, StringProperty)
+
+STATUS = (
+    ("UNPLACED", "Not placed", "Not marked on this mesh", "RADIOBUT_OFF", 0),
+    ("MARKED", "Marked", "Set or accepted by hand", "PINNED", 1),
+    ("FOUND", "Found", "Found by a model", "CHECKMARK", 2),
+    ("UNCERTAIN", "Uncertain", "Found by a model, which is not sure of it", "ERROR", 3),
+    ("ABSENT", "Absent", "This mesh does not have it", "X", 4),
+)
+STATUS_ICON = {item[0]: item[3] for item in STATUS}
+STATUS_NAME = {item[0]: item[1] for item in STATUS}
+
+BONE_NAMES = (
+    ("AS_TRAINED", "Own", "The names of the characters that taught the model"),
+    ("VRM", "VRM", "hips, leftUpperArm"),
+    ("MIXAMO", "Mixamo", "mixamorig:Hips, mixamorig:LeftArm"),
+    ("UNREAL", "Unreal", "pelvis, upperarm_l"),
+    ("RIGIFY", "Rigify", "DEF-spine, DEF-upper_arm.L: Blender mirrors poses and weights"),
+    ("UNITY", "Unity, Godot", "Hips, LeftUpperArm"),
+)
+
+
+def redraw_views(_self, context):
+    for area in context.screen.areas if context.screen else ():
+        if area.type == "VIEW_3D":
+            area.tag_redraw()
+
+
+class FocalLandmark(bpy.types.PropertyGroup):
+    name: StringProperty(name="Name", description="Of the landmark; .L and .R, or Left and Right, tell sides apart")
+    status: EnumProperty(name="Status", items=STATUS)
+    triangle: IntProperty(name="Triangle", default=-1, description="Number among the mesh's triangles")
+    barycentric: FloatVectorProperty(name="Barycentric", size=3, description="Weights of the triangle's corners")
+    position: FloatVectorProperty(name="Position", size=3, subtype="XYZ", description="In the object's coordinates",
+                                  precision=4)
+    confidence: FloatProperty(name="Confidence", min=0, max=1, subtype="FACTOR")
+    expected_error: FloatProperty(name="Expected error", subtype="DISTANCE")
+    runner_up_confidence: FloatProperty(name="Second-best confidence", min=0, max=1)
+    runner_up_triangle: IntProperty(default=-1)
+    runner_up_barycentric: FloatVectorProperty(size=3)
+
+    @property
+    def placed(self):
+        return self.triangle >= 0 and self.status in {"MARKED", "FOUND", "UNCERTAIN"}
+
+
+class FocalObject(bpy.types.PropertyGroup):
+    landmarks: CollectionProperty(type=FocalLandmark)
+    active: IntProperty(name="Active landmark", update=redraw_views)
+    model: StringProperty(name="Model", description="File of the model that found the landmarks")
+    category_fit: FloatProperty(name="Fits the category", min=0, max=1, subtype="FACTOR")
+    triangle_count: IntProperty(description="Of the mesh when the landmarks were placed: other meshes need a snap")
+
+
+class FocalTrainingMesh(bpy.types.PropertyGroup):
+    object: PointerProperty(type=bpy.types.Object, name="Mesh")
+
+
+class FocalLandmarkError(bpy.types.PropertyGroup):
+    name: StringProperty()
+    mean: FloatProperty(name="Mean error", subtype="DISTANCE")
+    share: FloatProperty(name="Error", description="In per cent of the square root of the surface's area",
+                         subtype="PERCENTAGE", precision=2)
+    count: IntProperty(name="Meshes it was measured on")
+
+
+class FocalScene(bpy.types.PropertyGroup):
+    training: CollectionProperty(type=FocalTrainingMesh)
+    training_active: IntProperty()
+    source: EnumProperty(name="Learn from", items=(
+        ("MARKS", "Marks", "Landmarks that you marked"),
+        ("RIGS", "Rigs", "Skeletons and weights of rigged characters; no marks are needed")))
+    quality: EnumProperty(name="Training", default="FULL", items=(
+        ("FULL", "Full", "Most accurate, with confidences that mean something"),
+        ("DRAFT", "Draft", "A few times faster, to try something; every confidence is about one half")))
+    model_path: StringProperty(name="Model", subtype="FILE_PATH", default="//landmarks.focal",
+                               description="File (.focal) that training writes and detection reads")
+    search: EnumProperty(name="Search", items=(
+        ("BEST", "Best", "With the slower refinements"), ("INTERACTIVE", "Quick", "About half the time")))
+    errors: CollectionProperty(type=FocalLandmarkError)
+    errors_active: IntProperty()
+    overlay: BoolProperty(name="Show in viewport", default=True, update=redraw_views,
+                          description="Draw the landmarks of the active mesh in colours of their confidence")
+    overlay_names: BoolProperty(name="Names", default=True, update=redraw_views,
+                                description="Write each landmark's name beside it")
+    empties: BoolProperty(name="Empties", default=True,
+                          description="Also make an empty at each landmark: for constraints and for export")
+    bone_names: EnumProperty(name="Names", items=BONE_NAMES, description="Names of the bones")
+    symmetric: BoolProperty(name="Symmetric", description="Bones of the left and right side get the same length")
+    template_path: StringProperty(name="Skeleton", subtype="FILE_PATH",
+                                  description="A skeleton of your own over the model's landmarks, as a JSON file; empty: "
+                                              "that of the characters that taught the model")
+    replace_rig: BoolProperty(name="Replace", description="Take the old armature's modifier and weights off first")
+    segmentation: EnumProperty(name="Parts", items=(
+        ("AUTO", "Automatic", "By the skeleton where the model has one, else by the nearest landmark"),
+        ("GEODESIC", "Nearest landmark", "The landmark nearest along the surface"),
+        ("SKELETON", "Skeleton", "The joint that moves it most"),
+        ("K_MEANS", "Clusters", "Clusters of place and heat kernel signature that start at the landmarks")))
+    parts_as_groups: BoolProperty(name="Vertex groups", default=True, description="One vertex group for each part")
+    parts_as_colours: BoolProperty(name="Colours", default=True, description="Parts as a colour attribute")
+    batch: PointerProperty(type=bpy.types.Collection, name="Collection", description="Every mesh of it is worked on")
+    batch_rig: BoolProperty(name="Rig too", description="Also give each mesh its armature and weights")
+    report: StringProperty(description="What the last run over a collection left out, and why")
+
+
+CLASSES = (FocalLandmark, FocalObject, FocalTrainingMesh, FocalLandmarkError, FocalScene)
+
+
+def register():
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
+    bpy.types.Object.focal = PointerProperty(type=FocalObject)
+    bpy.types.Scene.focal = PointerProperty(type=FocalScene)
+
+
+def unregister():
+    del bpy.types.Scene.focal
+    del bpy.types.Object.focal
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

@@ -1,0 +1,219 @@
+"""An armature with weights for a mesh, from its landmarks' detection."""
+import os
+
+import bpy
+import numpy
+from mathutils import Quaternion, Vector
+
+from .detection import Target, write_landmarks
+from .geometry import FROM_GLTF, Unusable, armature_of, hints_of
+from .gltf import Selection
+from .jobs import JobOperator
+
+# A bone shorter than this share of the skeleton would vanish: Blender removes bones without length.
+_SHORTEST = 0.005
+# Beyond this angle the joints of the training characters do not point along their limbs, as in VRM; then the bone
+# follows the limb and only its roll follows the joint.
+_ALONG = numpy.cos(numpy.radians(40))
+
+
+class RigTarget(Target):
+    """A mesh that is to get a rig, with the settings for it."""
+
+    def __init__(self, context, obj):
+        super().__init__(context, obj)
+        settings, armature = context.scene.focal, armature_of(obj)
+        if armature is not None and not settings.replace_rig:
+            raise Unusable(f"'{obj.name}' is moved by the armature '{armature.name}' already: "
+                           "remove its modifier, or tick Replace")
+        if obj.data.users > 1:  # weights lie with the mesh
+            raise Unusable(f"'{obj.name}' shares its mesh with other objects: "
+                           "make it single (Object > Relations > Make Single User)")
+        self.options = {"names": settings.bone_names.lower(), "symmetric": settings.symmetric,
+                        "skeleton_template": _template(settings)}
+
+    def rig(self, job, start=0.0, end=1.0):
+        """(detection, joints, joint numbers, weights, warnings); runs in the thread."""
+        middle = start if self.known is not None else start + 0.5 * (end - start)
+        detection = self.detect(job, start, middle)
+        task = job.begin(f"rigging {self.surface.name}", middle, end)
+        skeleton = detection.rig(task=task, **self.options)
+        numbers, weights = skeleton.weights
+        return detection, skeleton.joints, numbers, weights, skeleton.warnings
+
+
+def _template(settings):
+    if not settings.template_path:
+        return None
+    path = bpy.path.abspath(settings.template_path)
+    if not os.path.isfile(path):
+        raise Unusable(f"There is no skeleton template '{path}'")
+    with open(path, encoding="utf-8") as file:
+        return file.read()
+
+
+class FOCAL_OT_rig(JobOperator, bpy.types.Operator):
+    """Give the active mesh an armature with weights. Landmarks are detected first where they are not yet. Esc cancels"""
+    bl_idname = "focal.rig"
+    bl_label = "Rig"
+    bl_options = {"REGISTER", "UNDO"}
+
+    def prepare(self, context):
+        self._target = RigTarget(context, context.active_object)
+        return lambda job: self._target.rig(job)
+
+    def apply(self, context, result):
+        obj = self._target.object()
+        self._target.remember()
+        armature = write_rig(context, obj, self._target, result)
+        notes = result[-1] + hints_of(obj)
+        self.report({"WARNING"} if result[-1] else {"INFO"},
+                    "; ".join([f"{len(armature.data.bones)} bones"] + notes))
+
+
+def write_rig(context, obj, target, result):
+    """Landmarks, armature, vertex groups and modifier into the scene; the armature."""
+    detection, joints, numbers, weights, _warnings = result
+    write_landmarks(context, obj, target, detection)
+    _remove_old_rig(obj)
+    armature, names = _new_armature(context, obj, joints)
+    _write_weights(obj, names, numbers, weights)
+    _attach(context, obj, armature)
+    return armature
+
+
+def _remove_old_rig(obj):
+    """Its modifiers and the groups that carry its weights; the armature itself may move other meshes too."""
+    bones = set()
+    for modifier in [m for m in obj.modifiers if m.type == "ARMATURE"]:
+        if modifier.object is not None:
+            bones.update(bone.name for bone in modifier.object.data.bones)
+        obj.modifiers.remove(modifier)
+    for group in [g for g in obj.vertex_groups if g.name in bones]:
+        obj.vertex_groups.remove(group)
+
+
+def _new_armature(context, obj, joints):
+    """(armature, the names that its bones got)"""
+    armature = bpy.data.objects.new(f"{obj.name} rig", bpy.data.armatures.new(f"{obj.name} rig"))
+    armature.location = obj.matrix_world.translation
+    armature.show_in_front = True
+    obj.users_collection[0].objects.link(armature)
+    context.view_layer.update()
+    if armature.name not in context.view_layer.objects:  # that collection is switched off
+        context.scene.collection.objects.link(armature)
+        context.view_layer.update()
+    with Selection(context, [armature]):
+        bpy.ops.object.mode_set(mode="EDIT")
+        bones = _make_bones(armature.data.edit_bones, joints)
+        names = [bone.name for bone in bones]
+        bpy.ops.object.mode_set(mode="OBJECT")
+    for joint, name in zip(joints, names):
+        armature.data.bones[name]["focal_confidence"] = joint.confidence
+    return armature, names
+
+
+def _make_bones(edit_bones, joints):
+    heads = [_turned(joint.position) for joint in joints]
+    tails = _tails(joints, heads)
+    bones = []
+    for joint, head, tail in zip(joints, heads, tails):
+        bone = edit_bones.new(joint.name)
+        bone.head, bone.tail = head, tail
+        if joint.parent >= 0:
+            bone.parent = bones[joint.parent]
+            bone.use_connect = (bones[joint.parent].tail - head).length < 1e-6
+        _orient(bone, joint)
+        bones.append(bone)
+    return bones
+
+
+def _tails(joints, heads):
+    """The next joint of the limb where there is one, else the tip; never at the head."""
+    span = max((a - heads[0]).length for a in heads) or 1.0
+    tails = []
+    for j, joint in enumerate(joints):
+        following = _following(joints, heads, j)
+        tail = heads[following] if following is not None else _turned(joint.tip)
+        if (tail - heads[j]).length < _SHORTEST * span:
+            tail = heads[j] + _direction(joints, heads, j) * 4 * _SHORTEST * span
+        tails.append(tail)
+    return tails
+
+
+def _following(joints, heads, j):
+    """The child that continues a joint: its only one; at the root that which most hangs on; else the one ahead."""
+    children = [c for c, other in enumerate(joints) if other.parent == j]
+    if len(children) < 2:
+        return children[0] if children else None
+    if joints[j].parent < 0:
+        return max(children, key=lambda c: _descendants(joints, c))
+    onward = _direction(joints, heads, j)
+    ahead, best = max(((heads[c] - heads[j]).normalized().dot(onward), c) for c in children)
+    return best if ahead > 0.7 else None
+
+
+def _descendants(joints, j):
+    return 1 + sum(_descendants(joints, c) for c, other in enumerate(joints) if other.parent == j)
+
+
+def _direction(joints, heads, j):
+    """Where a bone of no length points: on from its parent, or up."""
+    parent = joints[j].parent
+    away = heads[j] - heads[parent] if parent >= 0 else Vector((0, 0, 1))
+    return away.normalized() if away.length > 0 else Vector((0, 0, 1))
+
+
+def _orient(bone, joint):
+    """Rest rotation of the training characters as far as the bone's direction leaves it."""
+    x, y, z, w = joint.rotation
+    axes = FROM_GLTF.to_3x3() @ Quaternion((w, x, y, z)).to_matrix()
+    along = (bone.tail - bone.head).normalized()
+    own = axes.transposed() @ along  # the bone's direction in the joint's axes
+    if own.y > _ALONG:
+        bone.align_roll(axes.col[2])
+    else:
+        bone.align_roll(axes.col[2] if abs(own.z) < 0.7 else axes.col[0] if abs(own.x) < 0.7 else axes.col[1])
+
+
+def _turned(position):
+    return FROM_GLTF.to_3x3() @ Vector(position)
+
+
+def _write_weights(obj, names, numbers, weights):
+    """Vertices of equal weight go in together: most have 1, and each call costs."""
+    for j, name in enumerate(names):
+        old = obj.vertex_groups.get(name)
+        if old is not None:
+            obj.vertex_groups.remove(old)
+        group = obj.vertex_groups.new(name=name)
+        vertices, slots = numpy.nonzero((numbers == j) & (weights > 0))
+        own = weights[vertices, slots]
+        values, where = numpy.unique(own, return_inverse=True)
+        order = numpy.argsort(where, kind="stable")
+        for value, part in zip(values, numpy.split(vertices[order], numpy.cumsum(numpy.bincount(where))[:-1])):
+            group.add(part.tolist(), float(value), "REPLACE")
+
+
+def _attach(context, obj, armature):
+    """Armature modifier first: it moves what the artist modelled, others refine that. The mesh stays where it is."""
+    world = obj.matrix_world.copy()
+    if obj.parent is not None and obj.parent.type != "ARMATURE":
+        armature.parent = obj.parent
+        armature.matrix_parent_inverse = obj.parent.matrix_world.inverted()
+    obj.parent = armature
+    obj.matrix_parent_inverse = armature.matrix_world.inverted()
+    obj.matrix_world = world
+    modifier = obj.modifiers.new("Armature", "ARMATURE")
+    modifier.object = armature
+    if len(obj.modifiers) > 1:
+        with context.temp_override(object=obj, active_object=obj):
+            bpy.ops.object.modifier_move_to_index(modifier=modifier.name, index=0)
+
+
+def register():
+    bpy.utils.register_class(FOCAL_OT_rig)
+
+
+def unregister():
+    bpy.utils.unregister_class(FOCAL_OT_rig)

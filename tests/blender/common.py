@@ -1,0 +1,92 @@
+"""What the tests of the Blender add-on share. Runs inside Blender: blender -b --python TEST.py -- ZIP SAMPLES OUT."""
+import json
+import os
+import sys
+import time
+
+import bpy
+import numpy
+
+if not hasattr(numpy, "bool"):  # the glTF add-on of Blender 3.4 asks NumPy for it
+    numpy.bool = bool
+
+ZIP, SAMPLES, OUT = sys.argv[sys.argv.index("--") + 1:]
+MODULE = "focal_addon"
+_began = time.perf_counter()
+_last = _began
+
+
+def step(text):
+    """Where the time goes."""
+    global _last
+    now = time.perf_counter()
+    print(f"{now - _began:7.1f} s  (+{now - _last:.1f})  {text}", flush=True)
+    _last = now
+
+
+def check(condition, text):
+    """Fails the test: Blender ends with the exit code of --python-exit-code."""
+    if not condition:
+        raise AssertionError(text)
+
+
+def install():
+    bpy.ops.preferences.addon_install(filepath=ZIP, overwrite=True)
+    check(bpy.ops.preferences.addon_enable(module=MODULE) == {"FINISHED"}, "the add-on is enabled")
+    return sys.modules[MODULE]
+
+
+def empty_scene():
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=False)
+    if MODULE not in bpy.context.preferences.addons:
+        bpy.ops.preferences.addon_enable(module=MODULE)
+
+
+def load_character(name, rigged=False):
+    """The mesh of a sample character."""
+    before = set(bpy.data.objects)
+    suffix = ".rig.glb" if rigged else ".glb"
+    bpy.ops.import_scene.gltf(filepath=os.path.join(SAMPLES, name + suffix))
+    new = [o for o in bpy.data.objects if o not in before]
+    mesh = max((o for o in new if o.type == "MESH"), key=lambda o: len(o.data.vertices))
+    mesh.name = name
+    return mesh
+
+
+def truth(name):
+    """{landmark: position} of a sample character, in glTF's axes."""
+    with open(os.path.join(SAMPLES, name + ".landmarks.json"), encoding="utf-8") as file:
+        return {mark["name"]: numpy.array(mark["position"]) for mark in json.load(file)["landmarks"]}
+
+
+def world(obj, mark):
+    """A landmark's place in glTF's axes."""
+    x, y, z = obj.matrix_world @ mark.position
+    return numpy.array([x, z, -y])
+
+
+def size(obj):
+    """sqrt of the surface's area, in the world."""
+    area = sum(p.area for p in obj.data.polygons)
+    return (area ** 0.5) * obj.matrix_world.median_scale
+
+
+def activate(obj):
+    for other in bpy.context.selected_objects:
+        other.select_set(False)
+    obj.select_set(True)
+    bpy.context.view_layer.objects.active = obj
+
+
+def refused(operator, **arguments):
+    """The message with which an operator refuses; fails when it does not."""
+    try:
+        operator(**arguments)
+    except RuntimeError as error:
+        return str(error)
+    raise AssertionError(f"{operator} did not refuse")
+
+
+def resident_bytes():
+    with open("/proc/self/statm", encoding="ascii") as file:
+        return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
