@@ -22,7 +22,8 @@ struct StructTraits<focal_detect_params> {
   static constexpr size_t first_size = 56;
   static focal_detect_params defaults();
 };
-static_assert(sizeof(focal_detect_params) == 56 && offsetof(focal_detect_params, seed) == 48);
+static_assert(sizeof(void*) != 8 ||
+              (sizeof(focal_detect_params) == 72 && offsetof(focal_detect_params, fixed_points) == 56));
 
 template <>
 struct StructTraits<focal_landmark> {
@@ -87,6 +88,26 @@ DetectParams checked(const focal_detect_params* given) {
   return result;
 }
 
+// On the mesh's surface.
+std::vector<std::optional<SurfacePoint>> fixed_places(const focal_detect_params& params,
+                                                      const ModelInfo& model, const PreparedMesh& mesh) {
+  std::vector<std::optional<SurfacePoint>> places;
+  if (!params.fixed_points && params.fixed_point_count == 0) return places;
+  require(params.fixed_points, "focal_detect_params.fixed_points");
+  if (params.fixed_point_count != model.landmark_names.size())
+    throw Error(Status::invalid_argument,
+                "focal_detect_params.fixed_point_count is " + std::to_string(params.fixed_point_count) +
+                    ", the model has " + std::to_string(model.landmark_names.size()) + " landmarks",
+                "give a point, or one with FOCAL_NO_TRIANGLE, for each landmark of the model");
+  for (size_t l = 0; l < model.landmark_names.size(); ++l) {
+    places.emplace_back();
+    if (params.fixed_points[l].triangle != FOCAL_NO_TRIANGLE)
+      places.back() =
+          point_in(mesh, params.fixed_points[l], "fixed landmark '" + model.landmark_names[l] + "'");
+  }
+  return places;
+}
+
 uint32_t vertex_out(int32_t vertex) { return vertex < 0 ? FOCAL_NO_VERTEX : static_cast<uint32_t>(vertex); }
 
 focal_landmark to_abi(const DetectedLandmark& from, const std::string& name) {
@@ -114,12 +135,15 @@ struct Call {
   TaskLease lease;
   Execution execution;
 
-  Call(const focal_model* handle, const focal_detect_params* given, focal_task* task)
+  // With a mesh: one on which landmarks are to be found.
+  Call(const focal_model* handle, const focal_detect_params* given, focal_task* task,
+       const PreparedMesh* mesh = nullptr)
       : model(resolve<ModelObject>(handle)),
         params(checked(given)),
         lease(task),
         execution(model->context->execution_with(lease.task())) {
     execution.check_cancelled();
+    if (mesh) params.fixed = fixed_places(read_struct(given), model->info, *mesh);
   }
 };
 
@@ -136,8 +160,7 @@ focal_detection* publish_detection(const Call& call, std::shared_ptr<const MeshO
   return publish(object);
 }
 
-focal_detection* run(const Call& call, const focal_mesh* handle) {
-  const auto mesh = resolve<MeshObject>(handle);
+focal_detection* run(const Call& call, const std::shared_ptr<const MeshObject>& mesh) {
   Detection detection = detect(call.model->model, mesh->mesh, call.params, call.execution);
   detection.seconds.load = mesh->load_seconds;
   detection.seconds.repair = mesh->repair_seconds;
@@ -159,7 +182,9 @@ focal_status focal_model_detect(const focal_model* model, const focal_mesh* mesh
                                 focal_detection** out_detection) {
   return guarded([&] {
     require(out_detection, "out_detection");
-    *out_detection = run(Call(model, params, task), mesh);
+    resolve<ModelObject>(model);  // a wrong model is told of first
+    const auto object = resolve<MeshObject>(mesh);
+    *out_detection = run(Call(model, params, task, object->mesh.get()), object);
   });
 }
 
@@ -185,8 +210,9 @@ focal_status focal_model_detect_analysis(const focal_model* model, const focal_a
                                          focal_detection** out_detection) {
   return guarded([&] {
     require(out_detection, "out_detection");
-    const Call call(model, params, task);
+    resolve<ModelObject>(model);
     const auto analysed = resolve<AnalysisObject>(analysis);
+    const Call call(model, params, task, analysed->mesh->mesh.get());
     Detection detection = detect(call.model->model, analysed->analysis, call.params, call.execution);
     detection.analysis = {analysed, &analysed->analysis};  // kept alive together
     *out_detection = publish_detection(call, analysed->mesh, std::move(detection));

@@ -376,6 +376,11 @@ typedef struct focal_detect_params {
   int32_t keep_votes; /* keep the vote maps in the detection. Default 1 */
   int32_t reserved;
   uint64_t seed; /* same seed, same bits. Default 1 */
+  /* Places that are known, as after a correction by hand: one for each landmark of the model, in its order,
+     FOCAL_NO_TRIANGLE where it is to be found. They stay where they are, FOUND with confidence 1, and the
+     others are chosen to suit them. NULL and 0: none. Preset default only. */
+  const focal_surface_point* fixed_points;
+  uint64_t fixed_point_count;
 } focal_detect_params;
 
 FOCAL_API focal_status focal_detect_params_init(focal_detect_params* params, size_t struct_size);

@@ -183,7 +183,8 @@ class Descent {
 
   bool improve(int32_t l) {
     const Option option = best_option(l);
-    const int32_t best = option.cost < absent_cost_ ? option.candidate : -1;
+    const bool certain = !c_.certain.empty() && c_.certain[l];
+    const int32_t best = certain || option.cost < absent_cost_ ? option.candidate : -1;
     if (best == chosen_[l]) return false;
     choose(l, best);
     return true;

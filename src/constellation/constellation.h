@@ -48,6 +48,7 @@ struct ConstellationCandidates {
   std::vector<float> unary;  // 0 for the best vote of its landmark, 1 for none
   RowMatrixf distance;       // all x all, of sqrt(area)
   TangentDirections directions;
+  std::vector<char> certain = {};  // per landmark: never left out; empty: none is
 };
 
 struct ConstellationParams {

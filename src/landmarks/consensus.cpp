@@ -81,12 +81,6 @@ std::vector<Opinion> opinions_on(int32_t landmark, const SurfacePoint& own, doub
   return opinions;
 }
 
-int32_t nearest_corner(const TriangleMesh& surface, const SurfacePoint& point) {
-  int nearest = 0;
-  point.barycentric.maxCoeff(&nearest);
-  return surface.triangles(point.triangle, nearest);
-}
-
 // What the training shapes say when their maps start from the landmarks that were not left out; nothing when those are
 // too few to start from.
 std::vector<CarriedMarks> carried_from(const LandmarkModel& model, const SurfaceAnalysis& analysis,
@@ -143,6 +137,7 @@ void join_carried_marks(const LandmarkModel& model, const SurfaceAnalysis& analy
   }
   const auto points = closest_points(surface, queries, 2 * analysis.operators.mean_edge);
   for (size_t p = 0; p < placed.size(); ++p) {
+    if (placement.is_fixed(placed[p])) continue;
     placement.point[placed[p]] = points[p];
     placement.vertex[placed[p]] = nearest_corner(surface, points[p]);
   }

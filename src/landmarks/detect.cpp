@@ -16,9 +16,7 @@ namespace {
 DetectedPoint point_at(const PreparedMesh& mesh, const SurfacePoint& surface_point, double confidence) {
   DetectedPoint point;
   point.source_point = to_source(mesh, surface_point);
-  int nearest = 0;
-  point.source_point.barycentric.maxCoeff(&nearest);
-  point.source_vertex = mesh.source.triangles(point.source_point.triangle, nearest);
+  point.source_vertex = nearest_corner(mesh.source, point.source_point);
   point.position = position_of(mesh.source, point.source_point);
   point.confidence = confidence;
   return point;
@@ -49,6 +47,13 @@ DetectedLandmark landmark_at(const LandmarkModel& model, const Proxy& proxy, con
   return landmark;
 }
 
+DetectedLandmark known_landmark(const PreparedMesh& mesh, const SurfacePoint& place) {
+  DetectedLandmark landmark;
+  static_cast<DetectedPoint&>(landmark) = point_at(mesh, place, 1);
+  landmark.status = LandmarkStatus::found;
+  return landmark;
+}
+
 std::vector<DetectedLandmark> landmarks_at(const LandmarkModel& model, const SurfaceAnalysis& analysis,
                                            const Placement& placement, const Judgement& judgement,
                                            const DetectParams& params, const Execution& execution) {
@@ -63,8 +68,10 @@ std::vector<DetectedLandmark> landmarks_at(const LandmarkModel& model, const Sur
   const auto full = to_full(analysis.proxy, places, execution);
   std::vector<DetectedLandmark> result;
   for (size_t l = 0; l < L; ++l)
-    result.push_back(landmark_at(model, analysis.proxy, placement, judgement, static_cast<int32_t>(l),
-                                 full[l], full[L + l], params));
+    result.push_back(placement.is_fixed(l)
+                         ? known_landmark(*analysis.proxy.full, *params.fixed[l])
+                         : landmark_at(model, analysis.proxy, placement, judgement, static_cast<int32_t>(l),
+                                       full[l], full[L + l], params));
   return result;
 }
 
@@ -73,6 +80,18 @@ void validate(const DetectParams& params) {
       params.peaks_per_landmark < 1)
     throw Error(Status::invalid_argument, "a detection parameter is out of its range",
                 "start from the defaults");
+}
+
+void check_fixed(const DetectParams& params, const LandmarkModel& model) {
+  if (params.fixed.empty()) return;
+  if (model.params.preset == Preset::paper)
+    throw Error(Status::unsupported, "preset paper finds each landmark on its own: known ones do not help",
+                "train with the default preset");
+  if (params.fixed.size() != model.landmark_names.size())
+    throw Error(Status::invalid_argument,
+                "there are " + std::to_string(params.fixed.size()) + " known places for " +
+                    std::to_string(model.landmark_names.size()) + " landmarks",
+                "pass one for each landmark of the model");
 }
 
 bool suits(const AnalysisParams& made, const AnalysisParams& wanted) {
@@ -124,6 +143,7 @@ Detection detect(std::shared_ptr<const LandmarkModel> model, std::shared_ptr<con
 Detection detect(std::shared_ptr<const LandmarkModel> model, const SurfaceAnalysis& analysis,
                  const DetectParams& params, const Execution& execution) {
   validate(params);
+  check_fixed(params, *model);
   if (!suits(analysis.params, analysis_params_of(model->params)))
     throw Error(Status::invalid_argument, "the analysis was made with other parameters than this model's",
                 "analyse the mesh once more, by the parameters of this model");

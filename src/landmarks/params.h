@@ -1,6 +1,10 @@
 // Every knob of training and detection, filled from a preset.
 #pragma once
 #include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "mesh/triangle_mesh.h"
 
 namespace focal {
 
@@ -32,6 +36,8 @@ struct DetectParams {
   Quality quality = Quality::best;
   bool keep_votes = true;  // keep the vote maps in the detection
   uint64_t seed = 1;
+  // Places that are known, one a landmark, on the full surface: they stay, and the others are chosen to suit them. Empty: none.
+  std::vector<std::optional<SurfacePoint>> fixed = {};
 };
 
 // The rate asked for, or what suits the preset: Xia et al. 2016, Section 5, or as measured on proxies.

@@ -46,6 +46,15 @@ RowMatrixf cast_votes(const LandmarkModel& model, const SurfaceAnalysis& analysi
   return votes.leftCols(L);
 }
 
+// The places that the caller knows, on the analysed surface.
+std::vector<std::optional<SurfacePoint>> fixed_places(const DetectParams& params,
+                                                      const SurfaceAnalysis& analysis) {
+  auto result = params.fixed;
+  for (auto& place : result)
+    if (place) place = to_coarse(analysis.proxy, std::span(&*place, 1))[0];
+  return result;
+}
+
 ConstellationCandidates make_candidates(const std::vector<std::vector<int32_t>>& peaks,
                                         const RowMatrixf& votes, const SurfaceAnalysis& analysis,
                                         std::vector<int32_t>& vertices, const Execution& execution) {
@@ -54,7 +63,8 @@ ConstellationCandidates make_candidates(const std::vector<std::vector<int32_t>>&
     candidates.start.push_back(static_cast<int32_t>(vertices.size()));
     for (const int32_t v : peaks[l]) {
       vertices.push_back(v);
-      candidates.unary.push_back(1 - votes(v, l) / votes(peaks[l][0], l));
+      const float best = votes(peaks[l][0], l);
+      candidates.unary.push_back(best > 0 ? 1 - votes(v, l) / best : 0);
     }
   }
   candidates.start.push_back(static_cast<int32_t>(vertices.size()));
@@ -122,16 +132,20 @@ Placement place_landmarks(const LandmarkModel& model, const SurfaceAnalysis& ana
   const int32_t samples = std::min(sample_limit, static_cast<int32_t>(analysis.samples.size()));
   result.votes = cast_votes(model, analysis, samples, execution, seconds);
   Stopwatch watch;
-  const auto peaks = find_peaks(
+  auto peaks = find_peaks(
       result.votes, static_cast<int32_t>(result.votes.cols()), params.peaks_per_landmark, 0,
       [&](int32_t v) {
         return connected_ball(analysis.operators.L, analysis.surface().positions, v, peak_separation);
       },
       execution);
   seconds.vote += watch.lap();
+  result.fixed = fixed_places(params, analysis);
+  std::vector<char> certain(result.fixed.size());
+  for (size_t l = 0; l < result.fixed.size(); ++l)
+    if ((certain[l] = result.is_fixed(l))) peaks[l] = {nearest_corner(analysis.surface(), *result.fixed[l])};
   std::vector<int32_t> vertices;
-  const ConstellationCandidates candidates =
-      make_candidates(peaks, result.votes, analysis, vertices, execution);
+  ConstellationCandidates candidates = make_candidates(peaks, result.votes, analysis, vertices, execution);
+  candidates.certain = std::move(certain);
   const auto choices =
       choose_constellations(model.constellation, candidates, ConstellationParams{}, execution);
   seconds.constellation += watch.lap();

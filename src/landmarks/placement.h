@@ -1,5 +1,6 @@
 // Preset `default` on one analysed surface: votes of leaf distributions, their peaks, the joint choice among them.
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "landmarks/detect.h"
@@ -25,6 +26,9 @@ struct Placement {
   std::vector<int32_t> vertex;  // one a landmark, of the analysed surface; -1 when there is no vote for it
   std::vector<SurfacePoint> point;  // the same, between the vertices
   std::vector<int32_t> rival;       // its strongest other peak, or -1
+  std::vector<std::optional<SurfacePoint>>
+      fixed;  // its known place, which nothing moves; empty: none is known
+  bool is_fixed(size_t landmark) const { return !fixed.empty() && fixed[landmark].has_value(); }
   std::vector<Evidence> evidence;
   float map_residual = 0;  // mean of the maps from the training shapes; 0 without maps
   RowMatrixf votes;        // vertices of the analysed surface x landmarks

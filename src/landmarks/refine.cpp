@@ -76,12 +76,14 @@ void refine_placement(const ConstellationStatistics& statistics, const SurfaceAn
     if (placement.vertex[l] >= 0) placed.push_back(l), vertex.push_back(placement.vertex[l]);
   placement.point.assign(placement.vertex.size(), {});
   const auto at_vertices = points_at(analysis.surface(), vertex);
-  for (size_t p = 0; p < placed.size(); ++p) placement.point[placed[p]] = at_vertices[p];
+  for (size_t p = 0; p < placed.size(); ++p)
+    placement.point[placed[p]] = placement.is_fixed(placed[p]) ? *placement.fixed[placed[p]] : at_vertices[p];
   if (placed.size() < 2) return;
   const MatrixX3 normals = area_normals(analysis.surface());
   for (int32_t round = 0; round < rounds; ++round) {
     const RowMatrixf fields = analysis.heat.distances(vertex, execution);
     parallel_for(execution, static_cast<int64_t>(placed.size()), [&](int64_t p) {
+      if (placement.is_fixed(placed[p])) return;
       const Region region = region_of(statistics, placement, fields, placed, static_cast<size_t>(p));
       vertex[p] = region.best();
       if (round + 1 == rounds) placement.point[placed[p]] = mean_place(analysis, normals, region);

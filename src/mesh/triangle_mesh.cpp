@@ -62,6 +62,12 @@ Vector3 position_of(const TriangleMesh& mesh, const SurfacePoint& point) {
   return position;
 }
 
+int32_t nearest_corner(const TriangleMesh& mesh, const SurfacePoint& point) {
+  int nearest = 0;
+  point.barycentric.maxCoeff(&nearest);
+  return mesh.triangles(point.triangle, nearest);
+}
+
 MatrixX3 area_normals(const TriangleMesh& mesh) {
   MatrixX3 normals = MatrixX3::Zero(mesh.vertex_count(), 3);
   for (int32_t t = 0; t < mesh.triangle_count(); ++t) {

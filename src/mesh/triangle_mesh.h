@@ -21,6 +21,7 @@ struct SurfacePoint {
 double surface_area(const TriangleMesh& mesh);
 double mean_edge_length(const TriangleMesh& mesh);  // over the undirected edges, each once
 Vector3 position_of(const TriangleMesh& mesh, const SurfacePoint& point);
+int32_t nearest_corner(const TriangleMesh& mesh, const SurfacePoint& point);  // its vertex
 
 // n x 3: twice the area of the triangles round each vertex, along their mean normal.
 MatrixX3 area_normals(const TriangleMesh& mesh);

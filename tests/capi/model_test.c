@@ -227,6 +227,39 @@ static void check_detect_params(const focal_model* model) {
   focal_mesh_destroy(mesh);
 }
 
+static void check_fixed_points(const focal_model* model) {
+  shape body = shape_create(RINGS, 0.07f);
+  focal_mesh* mesh = shape_mesh(context, RINGS, 0.07f);
+  focal_detection* detection = NULL;
+  focal_detect_params params;
+  focal_landmark landmark;
+  focal_surface_point points[SHAPE_MARKS];
+  CHECK_OK(focal_detect_params_init(&params, sizeof params));
+  CHECK(params.fixed_points == NULL && params.fixed_point_count == 0);
+  for (int i = 0; i < SHAPE_MARKS; ++i) points[i].triangle = FOCAL_NO_TRIANGLE;
+  CHECK_OK(focal_mesh_point_at_vertex(mesh, body.marks[0] + 1,
+                                      &points[0])); /* beside the place that it would find */
+  params.fixed_points = points, params.fixed_point_count = SHAPE_MARKS;
+  CHECK_OK(focal_model_detect(model, mesh, &params, NULL, &detection));
+  CHECK_OK(focal_landmark_init(&landmark, sizeof landmark));
+  CHECK_OK(focal_detection_get_landmark(detection, 0, &landmark));
+  CHECK(landmark.status == FOCAL_LANDMARK_FOUND && landmark.confidence == 1 && landmark.expected_error == 0);
+  CHECK(landmark.vertex == body.marks[0] + 1 && landmark.point.triangle == points[0].triangle);
+  focal_detection_destroy(detection), detection = NULL;
+  params.fixed_point_count = 2;
+  CHECK_REFUSED(focal_model_detect(model, mesh, &params, NULL, &detection), FOCAL_ERROR_INVALID_ARGUMENT,
+                "fixed_point_count is 2, the model has 3 landmarks");
+  params.fixed_point_count = SHAPE_MARKS, params.fixed_points = NULL;
+  CHECK_REFUSED(focal_model_detect(model, mesh, &params, NULL, &detection), FOCAL_ERROR_INVALID_ARGUMENT,
+                "fixed_points is NULL");
+  params.fixed_points = points, points[1].triangle = 1u << 30;
+  CHECK_REFUSED(focal_model_detect(model, mesh, &params, NULL, &detection), FOCAL_ERROR_INVALID_LANDMARK,
+                "fixed landmark");
+  CHECK(detection == NULL);
+  focal_mesh_destroy(mesh);
+  shape_destroy(&body);
+}
+
 int main(void) {
   CHECK_OK(focal_context_create(NULL, &context));
   focal_model* model = train();
@@ -236,6 +269,7 @@ int main(void) {
     check_files(model);
     check_detection(model);
     check_detect_params(model);
+    check_fixed_points(model);
     focal_context_destroy(keep);
     focal_model_info info;
     CHECK_OK(focal_model_info_init(&info, sizeof info));

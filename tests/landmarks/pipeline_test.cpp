@@ -116,6 +116,30 @@ TEST_CASE("landmarks are found on a body never seen") {
   }
 }
 
+TEST_CASE("landmarks whose places are known stay there, and do not mislead the others") {
+  const MarkedShape unseen = marked(humanoid(200));
+  DetectParams params;
+  params.fixed.resize(unseen.marks.size());
+  for (const size_t l : {size_t{0}, size_t{3}, size_t{7}}) params.fixed[l] = unseen.marks[l];
+  const Detection free = detect(small_model(), unseen.mesh, {}, threads(2)),
+                  tied = detect(small_model(), unseen.mesh, params, threads(2));
+  const auto before = errors_in_edges(free, unseen), after = errors_in_edges(tied, unseen);
+  double sum_before = 0, sum_after = 0;
+  for (size_t l = 0; l < after.size(); ++l) {
+    if (params.fixed[l]) {
+      CHECK(after[l] < 1e-6);
+      CHECK(tied.landmarks[l].confidence == 1);
+      CHECK(tied.landmarks[l].status == LandmarkStatus::found);
+      continue;
+    }
+    CHECK(after[l] < 10);
+    sum_before += before[l], sum_after += after[l];
+  }
+  CHECK(sum_after < 1.1 * sum_before);
+  params.fixed.pop_back();
+  CHECK_THROWS_AS(detect(small_model(), unseen.mesh, params, threads(2)), Error);
+}
+
 TEST_CASE(
     "a body that lost an arm keeps the landmarks that it has, and is surer of them than of the lost ones") {
   const creatures::Character whole = humanoid(200);

@@ -72,6 +72,26 @@ class Landmarks(Case):
             with self.assertRaisesRegex(TypeError, "mesh must be a focal.Mesh"):
                 model().analyse(wrong)
 
+    def test_places_that_are_known_stay(self):
+        surface, truth = mesh(), shape(16, 0.12)[2]
+        at = surface.point_at_vertex(truth[1])
+        analysis = model().analyse(surface)
+        for target in (surface, analysis):
+            for known in (truth[1], at):
+                found = model().detect(target, fixed={NAMES[1]: known})
+                self.assertEqual((found[1].confidence, found[1].status), (1, focal.LandmarkStatus.FOUND))
+                self.assertLess(math.dist(found[1].position, surface.position_of(at)), 1e-6)
+                for number in (0, 2):
+                    place = [float(x) for x in surface.vertices[truth[number]]]
+                    self.assertLess(math.dist(found[number].position, place), 3 * surface.info["mean_edge_length"])
+        self.assertEqual(model().detect(surface, fixed={}).landmarks, model().detect(surface).landmarks)
+        with self.assertRaisesRegex(ValueError, "'beak' is no landmark of this model"):
+            model().detect(surface, fixed={"beak": 0})
+        with self.assertRaisesRegex(TypeError, "fixed place"):
+            model().detect(surface, fixed={NAMES[0]: "nose"})
+        self.refused(Status.INVALID_LANDMARK, "", model().detect, surface,
+                     fixed={NAMES[0]: focal.SurfacePoint(10**6, (1, 0, 0))})
+
     def test_analysis_serves_many_models_and_keeps(self):
         surface = mesh()
         path = pathlib.Path(self.folder()) / "mesh.analysis"

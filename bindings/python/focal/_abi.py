@@ -206,6 +206,8 @@ class focal_detect_params(Structure):
         ("keep_votes", c_int32),
         ("reserved", c_int32),
         ("seed", c_uint64),
+        ("fixed_points", P(focal_surface_point)),
+        ("fixed_point_count", c_uint64),
     ]
 
 

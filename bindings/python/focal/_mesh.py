@@ -2,8 +2,9 @@
 from __future__ import annotations
 
 import ctypes
+import operator
 import os
-from typing import Any
+from typing import Any, Union
 
 from . import _abi
 from ._arrays import block_of, copied
@@ -11,6 +12,8 @@ from ._context import Context, context_or_default
 from ._handle import Handle
 from ._library import call, create, last_error, library
 from ._values import SurfacePoint, as_dict, fill, integer, new, path_text, point_of, real
+
+Mark = Union[int, SurfacePoint, None]
 
 NO_VERTEX = _abi.FOCAL_NO_VERTEX
 NO_TRIANGLE = _abi.FOCAL_NO_TRIANGLE
@@ -169,3 +172,18 @@ def surface_point(value: Any, name: str) -> _abi.focal_surface_point:
         raise ValueError(f"{name} must have three barycentric weights, not {len(weights)}")
     number = integer(triangle, f"the triangle of {name}", ctypes.c_uint32)
     return _abi.focal_surface_point(number, (ctypes.c_float * 3)(*(real(w, f"weights of {name}") for w in weights)))
+
+
+def is_number(mark: Any) -> bool:
+    try:
+        operator.index(mark)
+    except TypeError:
+        return False
+    return True
+
+
+def marked_point(mesh: Mesh, mark: Mark, name: str) -> _abi.focal_surface_point:
+    """From a vertex number, a SurfacePoint, or None for no point."""
+    if mark is None:
+        return _abi.focal_surface_point(NO_TRIANGLE)
+    return surface_point(mesh.point_at_vertex(mark) if is_number(mark) else mark, name)

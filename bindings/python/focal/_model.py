@@ -3,14 +3,14 @@ from __future__ import annotations
 
 import ctypes
 import os
-from typing import Any
+from typing import Any, Mapping
 
 from . import _abi
 from ._context import Context, context_or_default
 from ._detection import Detection
 from ._handle import Handle, handle_of
 from ._library import call, create, library
-from ._mesh import Mesh, bytes_of
+from ._mesh import Mark, Mesh, bytes_of, marked_point
 from ._task import Progress, Task, run
 from ._training_set import TrainingSet
 from ._values import as_dict, choice, fill, new, path_text
@@ -126,7 +126,8 @@ class Model(Handle):
                sampling_rate: float | None = None, max_samples: int | None = None,
                peaks_per_landmark: int | None = None, found_confidence: float | None = None,
                absent_confidence: float | None = None, keep_votes: bool | None = None, seed: int | None = None,
-               task: Task | None = None, on_progress: Progress | None = None) -> Detection:
+               fixed: Mapping[str, Mark] | None = None, task: Task | None = None,
+               on_progress: Progress | None = None) -> Detection:
         """Finds the landmarks on a mesh: a part of a second. On an Analysis of it: tens of milliseconds.
 
         quality             "best", or "interactive": faster, for a viewport
@@ -137,9 +138,11 @@ class Model(Handle):
         absent_confidence   below it a landmark is absent, 0..found_confidence. Default 0.05
         keep_votes          keep the vote maps. Default True
         seed                same seed, same result. Default 1
+        fixed               {name: vertex number or SurfacePoint}: places that are known, as after a correction by hand.
+                            They stay, and the other landmarks are chosen to suit them
         task, on_progress   as in train()
 
-        Error: NOT_CONVERGED, INVALID_ARGUMENT (also: an analysis made for a model with other parameters); Cancelled.
+        ValueError: a fixed name that the model does not know. Error: NOT_CONVERGED, INVALID_ARGUMENT (also: an analysis made for a model with other parameters); Cancelled.
         """
         analysed = isinstance(mesh, Analysis)
         given = mesh._handle if analysed else handle_of(mesh, Mesh, "mesh")
@@ -149,6 +152,9 @@ class Model(Handle):
                       found_confidence=found_confidence, absent_confidence=absent_confidence, keep_votes=keep_votes,
                       seed=seed)
         handle, names = self._handle, self.joint_names
+        if fixed:
+            points = self._fixed(fixed, mesh._mesh if analysed else mesh)
+            params.fixed_points, params.fixed_point_count = points, len(points)
 
         def detect(task_handle: Any) -> Detection:
             found = Detection._adopt(create(function, _abi.focal_detection, handle, given, ctypes.byref(params),
@@ -157,6 +163,14 @@ class Model(Handle):
             return found
 
         return run(detect, task, on_progress)
+
+    def _fixed(self, fixed: Mapping[str, Mark], mesh: Mesh) -> Any:
+        names = self.landmark_names
+        for name in fixed:
+            if name not in names:
+                raise ValueError(f"{name!r} is no landmark of this model: {', '.join(names)}")
+        points = [marked_point(mesh, fixed.get(name), f"the fixed place of {name!r}") for name in names]
+        return (_abi.focal_surface_point * len(points))(*points)
 
     def analyse(self, mesh: Mesh, *, quality: _abi.Quality | str | None = None, sampling_rate: float | None = None,
                 max_samples: int | None = None, seed: int | None = None, task: Task | None = None,
@@ -168,8 +182,10 @@ class Model(Handle):
                       max_samples=max_samples, seed=seed)
 
         def analyse(task_handle: Any) -> Analysis:
-            return Analysis._adopt(create("focal_model_analyse", _abi.focal_analysis, handle, given,
+            made = Analysis._adopt(create("focal_model_analyse", _abi.focal_analysis, handle, given,
                                           ctypes.byref(params), task_handle), self._context)
+            made._mesh = mesh
+            return made
 
         return run(analyse, task, on_progress)
 
@@ -178,6 +194,7 @@ class Analysis(Handle):
     """An analysed mesh, from Model.analyse: hand it to Model.detect of many models. It contains the mesh's geometry."""
 
     _kind = "analysis"
+    _mesh: Mesh  # that was analysed
 
     def __init__(self) -> None:
         raise TypeError("make an Analysis with Model.analyse or Analysis.load")
@@ -187,7 +204,9 @@ class Analysis(Handle):
         """What save() wrote, for the same mesh. Error: INVALID_FILE (damaged, or of another mesh), FILE_NOT_FOUND,
         IO, UNSUPPORTED_VERSION."""
         given, file, running = handle_of(mesh, Mesh, "mesh"), path_text(path), context_or_default(context)
-        return cls._adopt(create("focal_analysis_load", _abi.focal_analysis, running._handle, given, file), running)
+        made = cls._adopt(create("focal_analysis_load", _abi.focal_analysis, running._handle, given, file), running)
+        made._mesh = mesh
+        return made
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes it to a file of a few MB. Error: IO, FILE_NOT_FOUND (no such folder)."""

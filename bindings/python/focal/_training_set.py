@@ -3,18 +3,15 @@ from __future__ import annotations
 
 import contextlib
 import ctypes
-import operator
 import threading
-from typing import Any, Iterator, Mapping, Sequence, Union
+from typing import Any, Iterator, Mapping, Sequence
 
 from . import _abi
 from ._context import Context, context_or_default
 from ._handle import Handle, handle_of
 from ._library import call, create, library
-from ._mesh import NO_TRIANGLE, NO_VERTEX, Mesh, surface_point
-from ._values import SurfacePoint, integer, text
-
-Mark = Union[int, SurfacePoint, None]
+from ._mesh import NO_VERTEX, Mark, Mesh, is_number, marked_point
+from ._values import integer, text
 
 
 class TrainingSet(Handle):
@@ -57,13 +54,13 @@ class TrainingSet(Handle):
         handle_of(mesh, Mesh, "mesh")
         ordered = self._ordered(marks)
         # Marks all by number go in as they are, else all become surface points.
-        if all(mark is None or _is_number(mark) for mark in ordered):
+        if all(mark is None or is_number(mark) for mark in ordered):
             numbers = [NO_VERTEX if mark is None else integer(mark, "a vertex number", ctypes.c_uint32)
                        for mark in ordered]
             add = "focal_training_set_add_vertices"
             block: Any = (ctypes.c_uint32 * len(numbers))(*numbers)
         else:
-            points = [self._point(mesh, mark, name) for mark, name in zip(ordered, self._names)]
+            points = [marked_point(mesh, mark, f"the mark of {name!r}") for mark, name in zip(ordered, self._names)]
             add, block = "focal_training_set_add", (_abi.focal_surface_point * len(points))(*points)
         with self._changed():
             call(add, self._handle, mesh._handle, block, len(ordered))
@@ -83,12 +80,6 @@ class TrainingSet(Handle):
         if len(ordered) != len(self._names):
             raise ValueError(f"{len(ordered)} marks for {len(self._names)} landmarks; None stands for an absent one")
         return ordered
-
-    @staticmethod
-    def _point(mesh: Mesh, mark: Any, name: str) -> _abi.focal_surface_point:
-        if mark is None:
-            return _abi.focal_surface_point(NO_TRIANGLE)
-        return surface_point(mesh.point_at_vertex(mark) if _is_number(mark) else mark, f"the mark of {name!r}")
 
     def add_rig(self, mesh: Mesh) -> None:
         """Adds a rigged character, loaded from glTF, to a set made without landmark names: landmarks and joints follow
@@ -116,11 +107,3 @@ class TrainingSet(Handle):
         finally:
             with self._changing:
                 self._training -= 1
-
-
-def _is_number(mark: Any) -> bool:
-    try:
-        operator.index(mark)
-    except TypeError:
-        return False
-    return True
