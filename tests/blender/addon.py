@@ -8,6 +8,7 @@ import numpy
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from common import (MODULE, OUT, activate, check, empty_scene, install, load_character, refused, size, step,  # noqa: E402
                     truth, world)
+import corrections  # noqa: E402
 import pictures  # noqa: E402
 
 TRAINING = [f"humanoid_{i:02}" for i in range(6)]
@@ -349,9 +350,14 @@ def test_off_and_on():
     step("off and on")
 
 
+def test_corrections():
+    corrections.test(bpy.data.objects[OTHERS[0]])
+
+
 def main():
-    for test in (test_library_missing, test_marks, test_list, test_training, test_measure, test_refusals, test_detection, test_votes_and_parts, test_rig,
-                 test_collection, test_rigs, test_undo_and_file, test_off_and_on):
+    for test in (test_library_missing, test_marks, test_list, test_training, test_measure, test_refusals,
+                 test_detection, test_corrections, test_votes_and_parts, test_rig, test_collection, test_rigs,
+                 test_undo_and_file, test_off_and_on):
         test()
     print("all passed")
 

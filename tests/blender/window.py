@@ -152,6 +152,48 @@ def click():
     step("placed by a click and undone")
 
 
+def places():
+    return [(m.name, m.status, tuple(m.position)) for m in bpy.data.objects[OTHER].focal.landmarks]
+
+
+def correct():
+    """On a detected mesh the others follow a correction: as a job, and undo takes the click back with them."""
+    activate(bpy.data.objects[OTHER])
+    call(bpy.ops.focal.detect, "INVOKE_DEFAULT")
+    yield from wait_for_job(10)
+    marks = bpy.data.objects[OTHER].focal.landmarks
+    bpy.data.objects[OTHER].focal.active = marks.find("nose")
+    call(bpy.ops.ed.undo_push, message="detected")
+    detected = places()
+    call(bpy.ops.focal.landmark_accept, "INVOKE_DEFAULT", True)
+    check(jobs().current() is not None, "the others are looked for again")
+    yield from wait_for_job(10)
+    check(bpy.data.objects[OTHER].focal.landmarks["nose"].status == "MARKED", "accepted")
+    accepted = places()
+    where = view()
+    call(bpy.ops.focal.landmark_pick, "INVOKE_DEFAULT")
+    yield 0.1
+    x, y = (where["region"].x + where["region"].width // 2, where["region"].y + where["region"].height // 2)
+    for value in ("PRESS", "RELEASE"):
+        where["window"].event_simulate(type="LEFTMOUSE", value=value, x=x, y=y)
+        yield 0.05
+    yield from wait_for_job(10)
+    clicked = places()
+    check(sum(a != b for a, b in zip(clicked, accepted)) > 1, "the click moves the nose, and others after it")
+    where["window"].event_simulate(type="ESC", value="PRESS", x=x, y=y)
+    where["window"].event_simulate(type="ESC", value="RELEASE", x=x, y=y)
+    yield 0.2
+    check(places() == clicked, "the end of clicking changes nothing")
+    for wanted in (accepted, None, detected):  # None: accepted, the others not yet looked for
+        call(bpy.ops.ed.undo)
+        yield 0.1
+        check(wanted is None or places() == wanted, "undo goes back by one correction")
+    call(bpy.ops.focal.landmark_remove, all=True)
+    bpy.data.objects[OTHER].focal.model = ""
+    call(bpy.ops.ed.undo_push, message="no landmarks again")
+    step("accepted and clicked, the others followed, undone")
+
+
 def cycles():
     """Detect and undo again and again: the scene comes back, memory stays."""
     for area in view()["window"].screen.areas:  # without a GPU, drawing takes more time than the work
@@ -188,6 +230,7 @@ def test():
     yield from train()
     yield from cancel()
     yield from click()
+    yield from correct()
     yield from cycles()
     call(bpy.ops.focal.train, "INVOKE_DEFAULT")  # Blender ends while it runs, and must end well
     yield 0.3

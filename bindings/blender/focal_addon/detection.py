@@ -1,6 +1,7 @@
 """Finding a model's landmarks on the active mesh, and looking at how sure it is."""
 import collections
 import os
+import typing
 
 import bpy
 from bpy.props import BoolProperty
@@ -11,11 +12,14 @@ from .jobs import JobOperator
 from .landmark_data import active_of
 from .training import model_path
 
+_ANALYSIS_SHARE = 0.6  # of the time that a detection takes, about
+
 _STATUS = ("FOUND", "UNCERTAIN", "ABSENT")  # focal.LandmarkStatus in its order
 
-# Rigs, parts and heat maps start from a detection: a few MB each, so only the last ones are kept.
+# Rigs, parts and heat maps start from a detection, corrections from the mesh's analysis: a few MB each, so only the
+# last ones are kept. A mesh that was changed has another key and never meets them.
 _KEPT = 3
-_detections = collections.OrderedDict()  # (surface key, model key, quality) -> Detection
+_detections = collections.OrderedDict()  # (surface key, model key, quality) -> Known
 _model = (None, None)  # model key, Model
 
 
@@ -25,10 +29,18 @@ def clear_cache():
     _model = (None, None)
 
 
-class Target:
-    """What one mesh's detection needs, read from the scene in the main thread."""
+class Known(typing.NamedTuple):
+    """What was found on a mesh, and what it takes to look again."""
+    analysis: typing.Any
+    fixed: typing.Any  # as Target's, when it was found
+    detection: typing.Any
 
-    def __init__(self, context, obj):
+
+class Target:
+    """What one mesh's detection needs, read from the scene in the main thread. With keep_marked, landmarks set by hand
+    are fixed, and the others are chosen to suit them."""
+
+    def __init__(self, context, obj, keep_marked=True):
         engine.focal()
         self.surface = Surface(obj)
         self.positions, self.faces = self.surface.positions(), self.surface.faces()
@@ -37,16 +49,40 @@ class Target:
         self.model_key = (self.path, stat.st_mtime_ns, stat.st_size, engine.context())
         self.quality = context.scene.focal.search.lower()
         self.key = (self.surface.key(), self.model_key, self.quality)
+        self.fixed = landmark_data.fixed_places(obj, self.surface) if keep_marked else {}
         self.known = _detections.get(self.key)
+
+    @property
+    def ready(self):
+        """Whether there is nothing left to detect."""
+        return self.known is not None and self.known.fixed == self.fixed
 
     def detect(self, job, start=0.0, end=1.0):
         """The detection, from before where there is one; runs in the thread."""
-        if self.known is None:
-            task = job.begin(f"detecting on {self.surface.name}", start, end)
-            run_context = self.model_key[-1]
-            mesh = engine.package().Mesh(self.positions, self.faces, context=run_context)
-            self.known = _loaded(self.model_key).detect(mesh, quality=self.quality, task=task)
-        return self.known
+        if not self.ready:
+            stage, middle = f"detecting on {self.surface.name}", start
+            model = _loaded(self.model_key)
+            if self.known is None:
+                middle += _ANALYSIS_SHARE * (end - start)
+                analysis = self._analyse(model, job.begin(stage, start, middle))
+            else:
+                analysis = self.known.analysis
+            found = model.detect(analysis, quality=self.quality, fixed=self._fixed_in(model),
+                                 task=job.begin(stage, middle, end))
+            self.known = Known(analysis, self.fixed, found)
+        return self.known.detection
+
+    def _analyse(self, model, task):
+        mesh = engine.package().Mesh(self.positions, self.faces, context=self.model_key[-1])
+        return model.analyse(mesh, quality=self.quality, task=task)
+
+    def _fixed_in(self, model):
+        """Those that the model knows; the paper's method finds each landmark on its own."""
+        package = engine.package()
+        if model.train_params["preset"] == package.Preset.PAPER:
+            return {}
+        names = set(model.landmark_names)
+        return {name: package.SurfacePoint(*place) for name, place in self.fixed.items() if name in names}
 
     def remember(self):
         """In the main thread, after the work."""
@@ -82,10 +118,12 @@ class FOCAL_OT_detect(JobOperator, bpy.types.Operator):
     bl_label = "Detect"
     bl_options = {"REGISTER", "UNDO"}
 
-    keep_marked: BoolProperty(name="Keep marks", default=True, description="Landmarks set or accepted by hand stay")
+    keep_marked: BoolProperty(
+        name="Keep marks", default=True,
+        description="Landmarks set or accepted by hand stay, and the others are chosen to suit them")
 
     def prepare(self, context):
-        self._target = Target(context, context.active_object)
+        self._target = Target(context, context.active_object, self.keep_marked)
         return lambda job: self._target.detect(job)
 
     def apply(self, context, detection):
@@ -103,7 +141,7 @@ def write_landmarks(context, obj, target, detection, keep_marked=True):
     """A detection's landmarks into the object's list, in the model's order where the list was empty."""
     for found in detection:
         mark = landmark_data.ensure(obj, found.name)
-        if keep_marked and mark.status == "MARKED" and mark.triangle >= 0:
+        if keep_marked and mark.by_hand:
             continue
         if found.absent or found.point is None:
             landmark_data.unplace(mark, "ABSENT")

@@ -41,16 +41,23 @@ def place(obj, mark, surface, triangle, barycentric, status="MARKED"):
 
 def place_near(obj, mark, surface, tree, position, status="MARKED"):
     """Puts a landmark onto the point of the surface nearest to a local position; its distance from there."""
-    location, _normal, triangle, distance = tree.find_nearest(position)
-    if location is None:
-        raise Unusable(f"'{obj.name}' has no surface near this place")
-    place(obj, mark, surface, triangle, surface.barycentric(triangle, location), status)
+    triangle, barycentric, distance = _nearest(surface, tree, position)
+    place(obj, mark, surface, triangle, barycentric, status)
     return distance
 
 
-def unplace(mark, status="UNPLACED"):
+def _nearest(surface, tree, position):
+    """(triangle, barycentric, distance) of the place of the surface nearest to a local position."""
+    location, _normal, triangle, distance = tree.find_nearest(position)
+    if location is None:
+        raise Unusable(f"'{surface.name}' has no surface near this place")
+    return triangle, surface.barycentric(triangle, location), distance
+
+
+def unplace(mark, status="UNPLACED", by_hand=False):
     mark.triangle = -1
     mark.status = status
+    mark.told_absent = by_hand and status == "ABSENT"
     mark.confidence = 0.0
     mark.runner_up_triangle = -1
 
@@ -94,3 +101,18 @@ def surface_with_marks(obj):
     surface = Surface(obj)
     snap_stale(obj, surface)
     return surface, {m.name: (m.triangle, surface.turned(m.barycentric)) for m in obj.focal.landmarks if m.placed}
+
+
+def fixed_places(obj, surface):
+    """Landmarks set by hand, as {name: (triangle, barycentric)} in focal's order of corners. Where the mesh was edited
+    below one, the nearest place; the landmark itself stays as it is."""
+    fixed, tree = {}, None
+    for mark in obj.focal.landmarks:
+        if not (mark.placed and mark.by_hand):
+            continue
+        triangle, barycentric = mark.triangle, mark.barycentric
+        if stale(surface, mark):
+            tree = tree or surface.tree()
+            triangle, barycentric, _distance = _nearest(surface, tree, mark.position)
+        fixed[mark.name] = triangle, surface.turned(barycentric)
+    return fixed

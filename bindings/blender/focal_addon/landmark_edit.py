@@ -6,7 +6,7 @@ from bpy.props import BoolProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper, ImportHelper
 from mathutils import Vector
 
-from . import display, landmark_data, landmark_file, names
+from . import correction, display, landmark_data, landmark_file, names
 from .geometry import FROM_GLTF, TO_GLTF, Surface, Unusable
 from .landmark_data import active_of, ensure, place_near
 from .landmark_file import LandmarkFileError
@@ -15,6 +15,7 @@ from .landmark_file import LandmarkFileError
 class LandmarkOperator:
     """Works on the active mesh; what it cannot work on is reported, never raised."""
     bl_options = {"REGISTER", "UNDO"}
+    corrected = False
 
     @classmethod
     def poll(cls, context):
@@ -22,12 +23,30 @@ class LandmarkOperator:
 
     def execute(self, context):
         try:
-            self.change(context, context.active_object)
+            self.corrected = self.change(context, context.active_object)
         except (Unusable, LandmarkFileError) as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
         display.refresh(context, context.active_object)
         return {"FINISHED"}
+
+
+class Correction(LandmarkOperator):
+    """Sets places by hand; change() says whether it did. The other landmarks of a detected mesh follow."""
+    _in_window = False
+
+    def invoke(self, context, _event):
+        self._in_window = not bpy.app.background
+        return self.execute(context)
+
+    def execute(self, context):
+        done = super().execute(context)
+        if done == {"FINISHED"} and self.corrected:
+            try:
+                correction.follow(context, context.active_object, self._in_window)
+            except RuntimeError as error:  # with which an operator refuses: the correction itself stays
+                self.report({"WARNING"}, str(error))
+        return done
 
 
 class FOCAL_OT_landmark_add(LandmarkOperator, bpy.types.Operator):
@@ -67,10 +86,10 @@ class FOCAL_OT_landmark_unplace(LandmarkOperator, bpy.types.Operator):
                          description="This mesh does not have it: it is passed over")
 
     def change(self, context, obj):
-        landmark_data.unplace(_active(obj), "ABSENT" if self.absent else "UNPLACED")
+        landmark_data.unplace(_active(obj), "ABSENT" if self.absent else "UNPLACED", by_hand=True)
 
 
-class FOCAL_OT_landmark_cursor(LandmarkOperator, bpy.types.Operator):
+class FOCAL_OT_landmark_cursor(Correction, bpy.types.Operator):
     """Place the active landmark where the surface is nearest to the 3D cursor"""
     bl_idname = "focal.landmark_cursor"
     bl_label = "Place at Cursor"
@@ -80,23 +99,26 @@ class FOCAL_OT_landmark_cursor(LandmarkOperator, bpy.types.Operator):
         mark = active_of(obj) or ensure(obj, "point")
         position = obj.matrix_world.inverted() @ context.scene.cursor.location
         place_near(obj, mark, surface, surface.tree(), position)
+        return True
 
 
-class FOCAL_OT_landmark_snap(LandmarkOperator, bpy.types.Operator):
+class FOCAL_OT_landmark_snap(Correction, bpy.types.Operator):
     """Bring landmarks back onto the surface: after the mesh was edited, or to where their empties were moved"""
     bl_idname = "focal.landmark_snap"
     bl_label = "Snap to Surface"
 
     def change(self, context, obj):
         surface = Surface(obj)
-        tree, moved = surface.tree(), landmark_data.snap_stale(obj, surface)
+        tree, moved, by_hand = surface.tree(), landmark_data.snap_stale(obj, surface), 0
         for mark in obj.focal.landmarks:
             place = display.empty_place(obj, mark.name)
             if place is None or (mark.placed and (place - mark.position).length < 1e-5 * surface.size()):
                 continue
             place_near(obj, mark, surface, tree, place)
-            moved += 1
+            by_hand += 1
+        moved += by_hand
         self.report({"INFO"}, f"{moved} landmark{'' if moved == 1 else 's'} moved")
+        return by_hand > 0
 
 
 class FOCAL_OT_landmark_next(LandmarkOperator, bpy.types.Operator):
@@ -112,7 +134,7 @@ class FOCAL_OT_landmark_next(LandmarkOperator, bpy.types.Operator):
             obj.focal.active = at
 
 
-class FOCAL_OT_landmark_accept(LandmarkOperator, bpy.types.Operator):
+class FOCAL_OT_landmark_accept(Correction, bpy.types.Operator):
     """This place is right: keep it as if it was marked by hand"""
     bl_idname = "focal.landmark_accept"
     bl_label = "Accept"
@@ -120,9 +142,10 @@ class FOCAL_OT_landmark_accept(LandmarkOperator, bpy.types.Operator):
     all: BoolProperty(name="All", options={"SKIP_SAVE"}, description="Every landmark that has a place")
 
     def change(self, context, obj):
-        for mark in obj.focal.landmarks if self.all else [_active(obj)]:
-            if mark.placed:
-                mark.status, mark.confidence, mark.expected_error = "MARKED", 1.0, 0.0
+        chosen = [m for m in (obj.focal.landmarks if self.all else [_active(obj)]) if m.placed and m.status != "MARKED"]
+        for mark in chosen:
+            mark.status, mark.confidence, mark.expected_error = "MARKED", 1.0, 0.0
+        return bool(chosen)
 
 
 class FOCAL_OT_landmark_runner_up(LandmarkOperator, bpy.types.Operator):

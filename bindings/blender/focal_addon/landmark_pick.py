@@ -2,7 +2,7 @@
 import bpy
 from bpy_extras.view3d_utils import region_2d_to_origin_3d, region_2d_to_vector_3d
 
-from . import display, landmark_data, names
+from . import correction, display, landmark_data, names
 from .geometry import Surface, Unusable
 from .landmark_data import active_of
 
@@ -35,6 +35,7 @@ Backspace takes the last one back, Tab passes over, Esc or the right button ends
         self._tree = self._surface.tree()
         self._object = context.active_object.name
         self._past = []  # (number, what it was) of each placed one
+        self._unsaved = False  # whether something is left for this operator's own step of undo
         self._only_add = not len(context.active_object.focal.landmarks)
         context.window.cursor_modal_set("CROSSHAIR")
         context.window_manager.modal_handler_add(self)
@@ -76,7 +77,16 @@ Backspace takes the last one back, Tab passes over, Esc or the right button ends
         self._past.append((obj.focal.active, _state_of(mark)))
         landmark_data.place(obj, mark, self._surface, triangle, self._surface.barycentric(triangle, location))
         self._go_on(obj)
+        self._show(context, obj)
+
+    def _show(self, context, obj):
+        """Other landmarks of a detected mesh follow, which is a step of undo with the click in it."""
         display.refresh(context, obj)
+        try:
+            self._unsaved = not correction.follow(context, obj, True)
+        except RuntimeError as error:  # with which an operator refuses
+            self._unsaved = True
+            self.report({"WARNING"}, str(error))
 
     def _next_mark(self, obj):
         """Without names to fill in, each click makes a new landmark."""
@@ -106,7 +116,7 @@ Backspace takes the last one back, Tab passes over, Esc or the right button ends
         if number < len(obj.focal.landmarks):
             obj.focal.active = number
             _restore(obj.focal.landmarks[number], state)
-            display.refresh(context, obj)
+            self._show(context, obj)
 
     def _tell(self, context):
         mark = active_of(context.active_object)
@@ -123,7 +133,7 @@ Backspace takes the last one back, Tab passes over, Esc or the right button ends
         for area in context.screen.areas:
             if area.type == "VIEW_3D":
                 area.header_text_set(None)
-        return {"FINISHED"} if self._past else {"CANCELLED"}
+        return {"FINISHED"} if self._past and self._unsaved else {"CANCELLED"}
 
 
 def _view_below(context, event):
@@ -141,7 +151,7 @@ def _view_below(context, event):
     return found
 
 
-_FIELDS = ("triangle", "status", "confidence", "expected_error")
+_FIELDS = ("triangle", "status", "confidence", "expected_error", "told_absent")
 
 
 def _state_of(mark):

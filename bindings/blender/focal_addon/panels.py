@@ -206,7 +206,10 @@ class FOCAL_PT_detection(SidebarPanel, bpy.types.Panel):
             box = layout.box()
             for line in wrapped("To look at: " + ", ".join(unsure), 40):
                 box.label(text=line)
-            box.operator("focal.next_uncertain", icon="TRIA_RIGHT")
+        row = layout.row(align=True)
+        row.operator("focal.next_uncertain", icon="TRIA_RIGHT")
+        row.operator("focal.resolve", icon="FILE_REFRESH")
+        layout.prop(settings, "resolve")
 
 
 class FOCAL_PT_rig(SidebarPanel, bpy.types.Panel):

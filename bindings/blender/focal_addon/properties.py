@@ -41,10 +41,16 @@ class FocalLandmark(bpy.types.PropertyGroup):
     runner_up_confidence: FloatProperty(name="Second-best confidence", min=0, max=1)
     runner_up_triangle: IntProperty(default=-1)
     runner_up_barycentric: FloatVectorProperty(size=3)
+    told_absent: BoolProperty(description="Absent by hand: no model looks for it")
 
     @property
     def placed(self):
         return self.triangle >= 0 and self.status in {"MARKED", "FOUND", "UNCERTAIN"}
+
+    @property
+    def by_hand(self):
+        """Whether what it says was set or accepted by hand, so that no model changes it."""
+        return self.placed if self.status == "MARKED" else self.status == "ABSENT" and self.told_absent
 
 
 class FocalObject(bpy.types.PropertyGroup):
@@ -80,6 +86,9 @@ class FocalScene(bpy.types.PropertyGroup):
                                description="File (.focal) that training writes and detection reads")
     search: EnumProperty(name="Search", items=(
         ("BEST", "Best", "With the slower refinements"), ("INTERACTIVE", "Quick", "About half the time")))
+    resolve: BoolProperty(
+        name="Re-solve after each correction", default=True,
+        description="When a landmark of a detected mesh is set or accepted by hand, look for the others again")
     errors: CollectionProperty(type=FocalLandmarkError)
     errors_active: IntProperty()
     overlay: BoolProperty(name="Show in viewport", default=True, update=redraw_views,

@@ -34,7 +34,7 @@ class RigTarget(Target):
 
     def rig(self, job, start=0.0, end=1.0):
         """(detection, joints, joint numbers, weights, warnings); runs in the thread."""
-        middle = start if self.known is not None else start + 0.5 * (end - start)
+        middle = start if self.ready else start + 0.5 * (end - start)
         detection = self.detect(job, start, middle)
         task = job.begin(f"rigging {self.surface.name}", middle, end)
         skeleton = detection.rig(task=task, **self.options)

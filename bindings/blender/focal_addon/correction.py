@@ -1,0 +1,71 @@
+"""Landmarks set or accepted by hand stay, and the model chooses the others to suit them."""
+import bpy
+
+from . import jobs, landmark_data
+from .detection import Target, write_landmarks
+from .geometry import Unusable, problem_of
+from .jobs import JobOperator
+from .training import model_path
+
+
+class FOCAL_OT_resolve(JobOperator, bpy.types.Operator):
+    """Look for the landmarks again; those set or accepted by hand stay, and the others are chosen to suit them. Esc
+cancels"""
+    bl_idname = "focal.resolve"
+    bl_label = "Re-solve"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        obj = context.active_object
+        return super().poll(context) and obj is not None and obj.type == "MESH" and obj.focal.model != ""
+
+    def prepare(self, context):
+        self._target = Target(context, context.active_object)
+        if not self._target.fixed:
+            raise Unusable("Set or accept a landmark first: the others are then chosen to suit it")
+        return lambda job: self._target.detect(job)
+
+    def apply(self, context, detection):
+        target, obj = self._target, self._target.object()
+        target.remember()
+        before = {mark.name: mark.position.copy() for mark in obj.focal.landmarks if mark.placed}
+        write_landmarks(context, obj, target, detection)
+        least = 1e-6 * target.surface.size()
+        moved = sum(mark.placed and (mark.name not in before or (mark.position - before[mark.name]).length > least)
+                    for mark in obj.focal.landmarks)
+        unsure = landmark_data.counts(obj)[2]
+        self.report({"INFO"}, f"{moved} landmark{'' if moved == 1 else 's'} moved, {unsure} uncertain")
+        in_window = self._job is not None
+        if in_window and landmark_data.fixed_places(obj, target.surface) != target.fixed:
+            follow(context, obj, True)  # another correction came while this one was worked on
+
+
+def follow(context, obj, in_window):
+    """After landmarks were set by hand: the others are looked for again where that is wanted. Whether they are.
+    in_window: as a job beside the user, else before this returns."""
+    if not _wanted(context, obj):
+        return False
+    if jobs.current() is None:
+        bpy.ops.focal.resolve("INVOKE_DEFAULT" if in_window else "EXEC_DEFAULT")
+    return True
+
+
+def _wanted(context, obj):
+    """Of a mesh that the scene's model has looked at, when there is something left to look for."""
+    if not context.scene.focal.resolve or obj.mode != "OBJECT" or not obj.focal.model:
+        return False
+    if problem_of(obj) or all(mark.by_hand for mark in obj.focal.landmarks):
+        return False
+    try:
+        return model_path(context, must_exist=True) == obj.focal.model
+    except Unusable:
+        return False
+
+
+def register():
+    bpy.utils.register_class(FOCAL_OT_resolve)
+
+
+def unregister():
+    bpy.utils.unregister_class(FOCAL_OT_resolve)
