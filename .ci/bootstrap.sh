@@ -4,9 +4,11 @@
 set -eu
 packages="g++ cmake ninja-build pkgconf libeigen3-dev libspectra-dev libtinygltf-dev nlohmann-json3-dev
   libmeshoptimizer-dev libcli11-dev doctest-dev"
+optional=  # tests that need them are skipped without
 if [ "${1:-}" = ci ]; then
-  packages="$packages abigail-tools chromium clang-format-14 python3-numpy valgrind blender xvfb"
-  command -v node > /dev/null || packages="$packages nodejs npm"
+  packages="$packages abigail-tools chromium clang-format-14 valgrind"
+  optional="blender python3-numpy xvfb"
+  command -v node > /dev/null || optional="$optional nodejs npm"
 fi
 
 if ! command -v dpkg-query > /dev/null; then
@@ -14,31 +16,37 @@ if ! command -v dpkg-query > /dev/null; then
   echo "bootstrap: this is no Debian or Ubuntu; install what these packages hold yourself:" $packages >&2
   exit 1
 fi
-missing=
-for package in $packages; do
-  dpkg-query -W -f '${db:Status-Status}\n' "$package" 2> /dev/null | grep -qx installed || missing="$missing $package"
-done
-install_missing() {
-  if [ -z "$missing" ]; then
-    echo "bootstrap: all packages needed are installed"
-    return
-  fi
+
+missing_of() {  # PACKAGE...
+  for package; do
+    dpkg-query -W -f '${db:Status-Status}\n' "$package" 2> /dev/null | grep -qx installed || printf ' %s' "$package"
+  done
+}
+
+install_packages() {  # PACKAGE...
   as_root=
   if [ "$(id -u)" -ne 0 ]; then
     if ! command -v sudo > /dev/null; then
-      echo "bootstrap: packages are missing and there is no sudo; as root run: apt-get install$missing" >&2
-      exit 1
+      echo "bootstrap: packages are missing and there is no sudo; as root run: apt-get install $*" >&2
+      return 1
     fi
     as_root=sudo
   fi
-  echo "bootstrap: installing$missing"
-  # shellcheck disable=SC2086  # the packages are words
-  {
-    $as_root apt-get -qq update
-    $as_root env DEBIAN_FRONTEND=noninteractive apt-get -qq install -y --no-install-recommends $missing > /dev/null
-  }
+  echo "bootstrap: installing $*"
+  $as_root apt-get -qq update &&
+    $as_root env DEBIAN_FRONTEND=noninteractive apt-get -qq install -y --no-install-recommends "$@" > /dev/null
 }
-install_missing
+
+# shellcheck disable=SC2046,SC2086  # the packages are words
+{
+  set -- "${1:-}" $(missing_of $packages)
+  mode=$1
+  shift
+  [ $# -eq 0 ] || install_packages "$@" || exit 1
+  set -- $(missing_of $optional)
+  [ $# -eq 0 ] || install_packages "$@" || echo "bootstrap: could not install $*; tests that need them are skipped"
+}
+echo "bootstrap: all packages needed are installed"
 
 # What tests/viewers judges files with; without it that test is skipped.
 install_viewers() {
@@ -51,4 +59,4 @@ install_viewers() {
     --fetch-retries=1 --fetch-timeout=20000 > "$tools/npm.log" 2>&1 ||
     echo "bootstrap: npm could not fetch them (see build/tools/npm.log); tests/viewers will be skipped"
 }
-if [ "${1:-}" = ci ] && command -v npm > /dev/null; then install_viewers; fi
+if [ "$mode" = ci ] && command -v npm > /dev/null; then install_viewers; fi
