@@ -69,11 +69,19 @@ TemplateJoint joint_of(const json& from) {
   return joint;
 }
 
+JsonDocument json_of(const char* text) {
+  try {
+    return JsonDocument(std::as_bytes(std::span(text, std::strlen(text))), {.depth = 8, .values = 1'000'000});
+  } catch (const Error& error) {
+    throw Error(error.status(), std::string("the skeleton template: ") + error.what(),
+                "it is JSON text; docs/rigs.md describes its form");
+  }
+}
+
 }  // namespace
 
 SkeletonTemplate parse_skeleton_template(const char* text) {
-  const JsonDocument document(std::as_bytes(std::span(text, std::strlen(text))),
-                              {.depth = 8, .values = 1'000'000});
+  const JsonDocument document = json_of(text);
   const json& root = document.root();
   if (!root.is_object() || text_of(root, "format") != "focal-skeleton-template")
     fail("has no \"format\": \"focal-skeleton-template\"");

@@ -257,7 +257,7 @@ TEST_CASE("rig by a template: joints where its landmarks say, or a word on what 
   std::ofstream(file) << "{}";
   check_fails(rig, "format");
   std::ofstream(file) << "[1,";
-  check_fails(rig, "template.json");
+  check_fails(rig, "the skeleton template: JSON");
 }
 
 TEST_CASE("segment: a label for each triangle, by the landmarks' names") {

@@ -65,7 +65,13 @@ async function judge({written, input, how}) {
   faults.push(...boneFaults(bones, before, after));
 
   const clips = verb === 'rig' || verb === 'detect' ? [...before.clips] : [];
-  if (words.includes('--animations')) clips.push(...(await lookOnce(words[words.indexOf('--animations') + 1])).clips);
+  if (words.includes('--animations')) {  // they get a number where the mesh has one of that name
+    for (const clip of (await lookOnce(words[words.indexOf('--animations') + 1])).clips) {
+      let name = clip;
+      for (let number = 2; clips.includes(name); ++number) name = `${clip} (${number})`;
+      clips.push(name);
+    }
+  }
   for (const clip of lostClips(clips, after)) faults.push(`error: animation ${clip} is lost`);
 
   // focal reads what has a skin in the pose in which it was bound; the pose shown may differ a little.
