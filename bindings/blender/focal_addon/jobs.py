@@ -85,6 +85,10 @@ class Job:
         self.run()
 
     @property
+    def started(self):
+        return self._thread is not None
+
+    @property
     def running(self):
         return self._thread is not None and self._thread.is_alive()
 
@@ -126,8 +130,7 @@ class JobOperator:
             self._job = self._prepared(context)
         except (Unusable, *FAILURES) as error:
             return self.refuse(message_of(error))
-        _current = self._job
-        self._job.start()
+        _current = self._job  # started by the first timer event
         manager = context.window_manager
         manager.progress_begin(0, 100)
         self._timer = manager.event_timer_add(TIMER_SECONDS, window=context.window)
@@ -143,6 +146,10 @@ class JobOperator:
             looking = event.type in {"LEFTMOUSE", "MIDDLEMOUSE", "MOUSEMOVE", "INBETWEEN_MOUSEMOVE", "WHEELUPMOUSE",
                                      "WHEELDOWNMOUSE", "TRACKPADPAN", "TRACKPADZOOM", "NDOF_MOTION", "WINDOW_DEACTIVATE"}
             return {"PASS_THROUGH"} if looking else {"RUNNING_MODAL"}
+        if not self._job.started:
+            # Not in invoke(): Blender 3.4 crashes when it writes a step of undo while a thread runs Python, and an
+            # operator that called this one has got its step by now.
+            self._job.start()
         if self._job.running:
             self._show_progress(context)
             return {"PASS_THROUGH"}

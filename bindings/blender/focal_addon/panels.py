@@ -206,10 +206,9 @@ class FOCAL_PT_detection(SidebarPanel, bpy.types.Panel):
             box = layout.box()
             for line in wrapped("To look at: " + ", ".join(unsure), 40):
                 box.label(text=line)
-        row = layout.row(align=True)
-        row.operator("focal.next_uncertain", icon="TRIA_RIGHT")
-        row.operator("focal.resolve", icon="FILE_REFRESH")
-        layout.prop(settings, "resolve")
+            box.operator("focal.next_uncertain", icon="TRIA_RIGHT")
+        layout.operator("focal.resolve", icon="FILE_REFRESH")
+        layout.prop(settings, "resolve", text="After each correction")
 
 
 class FOCAL_PT_rig(SidebarPanel, bpy.types.Panel):
