@@ -135,15 +135,12 @@ struct Call {
   TaskLease lease;
   Execution execution;
 
-  // With a mesh: one on which landmarks are to be found.
-  Call(const focal_model* handle, const focal_detect_params* given, focal_task* task,
-       const PreparedMesh* mesh = nullptr)
+  Call(const focal_model* handle, const focal_detect_params* given, focal_task* task)
       : model(resolve<ModelObject>(handle)),
         params(checked(given)),
         lease(task),
         execution(model->context->execution_with(lease.task())) {
     execution.check_cancelled();
-    if (mesh) params.fixed = fixed_places(read_struct(given), model->info, *mesh);
   }
 };
 
@@ -182,9 +179,10 @@ focal_status focal_model_detect(const focal_model* model, const focal_mesh* mesh
                                 focal_detection** out_detection) {
   return guarded([&] {
     require(out_detection, "out_detection");
-    resolve<ModelObject>(model);  // a wrong model is told of first
+    Call call(model, params, task);
     const auto object = resolve<MeshObject>(mesh);
-    *out_detection = run(Call(model, params, task, object->mesh.get()), object);
+    call.params.fixed = fixed_places(read_struct(params), call.model->info, *object->mesh);
+    *out_detection = run(call, object);
   });
 }
 
@@ -210,9 +208,9 @@ focal_status focal_model_detect_analysis(const focal_model* model, const focal_a
                                          focal_detection** out_detection) {
   return guarded([&] {
     require(out_detection, "out_detection");
-    resolve<ModelObject>(model);
+    Call call(model, params, task);
     const auto analysed = resolve<AnalysisObject>(analysis);
-    const Call call(model, params, task, analysed->mesh->mesh.get());
+    call.params.fixed = fixed_places(read_struct(params), call.model->info, *analysed->mesh->mesh);
     Detection detection = detect(call.model->model, analysed->analysis, call.params, call.execution);
     detection.analysis = {analysed, &analysed->analysis};  // kept alive together
     *out_detection = publish_detection(call, analysed->mesh, std::move(detection));

@@ -342,8 +342,8 @@ void SkinInserter::add() {
     if (primitive.mirrored) turn_triangles(primitive);
   }
   for (const auto& [mesh, primitive] : meshes) attach(*primitive, skin_for(primitive->world_transform));
-  for (const size_t skin : skins_.empty() ? std::vector<size_t>{}
-                                          : free_skins_)  // nobody uses it, but what it names must be joints
+  if (skins_.empty()) free_skins_.clear();
+  for (const size_t skin : free_skins_)  // nobody uses it, but what it names must be joints
     root_["skins"][skin] = root_["skins"][skins_.front().second];
   retire_former_skins(former_skins);
   for (const JointAnimation& animation : rig_.animations) add_animation(animation);

@@ -165,13 +165,19 @@ double variance_about(const Vector3& axis, const Matrix3& mean, const std::vecto
   return total > 0 ? squares / total * (total_squares / (total * total)) : 1;
 }
 
+// Of the first character that taught the model; there is one, or there were no maps.
+const ShapeRig& first_rig(const LandmarkModel& model) {
+  return *std::find_if(model.atlas.begin(), model.atlas.end(), [](const AtlasShape& shape) {
+            return shape.rig.has_value();
+          })->rig;
+}
+
 void settle_twists(const LandmarkModel& model, const std::vector<Opinion>& opinions, Joints& joints) {
-  const auto first = std::find_if(model.atlas.begin(), model.atlas.end(),
-                                  [](const AtlasShape& shape) { return shape.rig.has_value(); });
+  const ShapeRig& first = first_rig(model);
   const std::vector<Vector3> way = bone_directions(model.skeleton, joints);
   std::vector<TurnedJoint> turned;
   for (size_t j = 0; j < model.skeleton.size(); ++j) {
-    const auto& bind = first->rig->bind[j];
+    const auto& bind = first.bind[j];
     turned.push_back({model.skeleton[j].parent, joints.turn[j],
                       bind ? Matrix3(bind->topLeftCorner<3, 3>()) : joints.turn[j], way[j],
                       variance_about(way[j], joints.turn[j], opinions, j)});
@@ -192,13 +198,12 @@ void draw_inside(Joints& joints, const RowMatrixf& weights, TriangleMesh surface
 
 std::vector<Matrix4> rest_pose(const LandmarkModel& model, const std::vector<Joint>& joints) {
   std::vector<Matrix4> rest;
-  const auto first = std::find_if(model.atlas.begin(), model.atlas.end(),
-                                  [](const AtlasShape& shape) { return shape.rig.has_value(); });
+  const ShapeRig& first = first_rig(model);
   for (size_t j = 0; j < joints.size(); ++j) {
     rest.push_back(joints[j].bind);
     const int32_t p = joints[j].parent;
     if (p >= 0) rest[j] = rest[p] * joints[p].bind.inverse() * joints[j].bind;
-    if (const auto& bind = first->rig->bind[j]) rest[j].topLeftCorner<3, 3>() = bind->topLeftCorner<3, 3>();
+    if (const auto& bind = first.bind[j]) rest[j].topLeftCorner<3, 3>() = bind->topLeftCorner<3, 3>();
   }
   return rest;
 }

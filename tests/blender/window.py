@@ -125,6 +125,14 @@ def state():
     return {o.name: (o.type, len(o.focal.landmarks), len(o.children), len(o.modifiers)) for o in bpy.data.objects}
 
 
+def press(where, kind):
+    """A key or button, pressed and released in the middle of the view."""
+    x, y = (where["region"].x + where["region"].width // 2, where["region"].y + where["region"].height // 2)
+    for value in ("PRESS", "RELEASE"):
+        where["window"].event_simulate(type=kind, value=value, x=x, y=y)
+        yield 0.1
+
+
 def click():
     """A click on the surface places the next landmark; Esc ends; undo takes it back."""
     obj = bpy.data.objects[OTHER]
@@ -136,14 +144,9 @@ def click():
     where = view()
     call(bpy.ops.focal.landmark_pick, "INVOKE_DEFAULT")
     yield 0.1
-    x, y = (where["region"].x + where["region"].width // 2, where["region"].y + where["region"].height // 2)
-    for value in ("PRESS", "RELEASE"):
-        where["window"].event_simulate(type="LEFTMOUSE", value=value, x=x, y=y)
-        yield 0.1
+    yield from press(where, "LEFTMOUSE")
     check(bpy.data.objects[OTHER].focal.landmarks["belly"].placed, "the click placed it")
-    where["window"].event_simulate(type="ESC", value="PRESS", x=x, y=y)
-    where["window"].event_simulate(type="ESC", value="RELEASE", x=x, y=y)
-    yield 0.2
+    yield from press(where, "ESC")
     call(bpy.ops.ed.undo)
     yield 0.1
     check(not bpy.data.objects[OTHER].focal.landmarks["belly"].placed, "undo takes the click back")
@@ -173,16 +176,11 @@ def correct():
     where = view()
     call(bpy.ops.focal.landmark_pick, "INVOKE_DEFAULT")
     yield 0.1
-    x, y = (where["region"].x + where["region"].width // 2, where["region"].y + where["region"].height // 2)
-    for value in ("PRESS", "RELEASE"):
-        where["window"].event_simulate(type="LEFTMOUSE", value=value, x=x, y=y)
-        yield 0.05
+    yield from press(where, "LEFTMOUSE")
     yield from wait_for_job(10)
     clicked = places()
     check(sum(a != b for a, b in zip(clicked, accepted)) > 1, "the click moves the nose, and others after it")
-    where["window"].event_simulate(type="ESC", value="PRESS", x=x, y=y)
-    where["window"].event_simulate(type="ESC", value="RELEASE", x=x, y=y)
-    yield 0.2
+    yield from press(where, "ESC")
     check(places() == clicked, "the end of clicking changes nothing")
     for wanted in (accepted, None, detected):  # None: accepted, the others not yet looked for
         call(bpy.ops.ed.undo)

@@ -23,18 +23,24 @@ void check_sphere(const Proxy& proxy, double radius) {
   const auto distances = DistanceFields(proxy, {}).from(point, {});
   REQUIRE(static_cast<int32_t>(distances.size()) == source.vertex_count());
   // Within a triangle distances are mixed linearly; round the source, where they form a cone, that misses by half an edge.
-  double edge = 0;
   const TriangleMesh& coarse = proxy.coarse->surface;
-  for (int32_t t = 0; t < coarse.triangle_count(); ++t)
+  const auto half_edge = [&](const SurfacePoint& place) {
+    double longest = 0;
     for (int i = 0; i < 3; ++i)
-      edge = std::max(edge, proxy.scale() * (coarse.positions.row(coarse.triangles(t, i)) -
-                                             coarse.positions.row(coarse.triangles(t, (i + 1) % 3)))
-                                                .norm());
+      longest = std::max(longest, (coarse.positions.row(coarse.triangles(place.triangle, i)) -
+                                   coarse.positions.row(coarse.triangles(place.triangle, (i + 1) % 3)))
+                                      .norm());
+    return proxy.scale() * longest / 2;
+  };
+  const std::vector<SurfacePoint> full = {to_surface(*proxy.full, point)};
+  const double at_source = half_edge(to_coarse(proxy, full)[0]);
+  const auto places = coarse_place_of_vertices(proxy);
   for (int32_t v = 0; v < source.vertex_count(); ++v) {
     const double truth =
         radius *
         std::acos(std::clamp(place.dot(source.positions.row(v).normalized().transpose()), -1.0, 1.0));
-    CHECK(std::abs(distances[v] - truth) < edge / 2 + 0.02 * truth);
+    const double edge = std::max(at_source, half_edge(places[proxy.full->surface_vertex[v]]));
+    CHECK(std::abs(distances[v] - truth) < edge + 0.02 * truth);
   }
 }
 

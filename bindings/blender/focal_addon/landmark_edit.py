@@ -281,11 +281,4 @@ CLASSES = (FOCAL_OT_landmark_add, FOCAL_OT_landmark_remove, FOCAL_OT_landmark_un
            FOCAL_OT_landmark_export)
 
 
-def register():
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
-
-
-def unregister():
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+register, unregister = bpy.utils.register_classes_factory(CLASSES)

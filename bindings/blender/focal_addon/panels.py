@@ -260,11 +260,4 @@ CLASSES = (FOCAL_UL_landmarks, FOCAL_UL_training, FOCAL_UL_errors, FOCAL_MT_land
            FOCAL_PT_batch)
 
 
-def register():
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
-
-
-def unregister():
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+register, unregister = bpy.utils.register_classes_factory(CLASSES)

@@ -82,11 +82,4 @@ def wrapped(text, width):
 CLASSES = (FOCAL_OT_check_library, FocalPreferences)
 
 
-def register():
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
-
-
-def unregister():
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+register, unregister = bpy.utils.register_classes_factory(CLASSES)

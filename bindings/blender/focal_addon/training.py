@@ -213,11 +213,4 @@ def _measure(model, mesh, run_context, task, errors):
 CLASSES = (FOCAL_OT_training_add, FOCAL_OT_training_remove, FOCAL_OT_train, FOCAL_OT_cross_validate)
 
 
-def register():
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
-
-
-def unregister():
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+register, unregister = bpy.utils.register_classes_factory(CLASSES)
