@@ -17,11 +17,14 @@ if(FOCAL_ARCH AND CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
     target_compile_options(focal_flags INTERFACE -march=${FOCAL_ARCH})
   endif()
 endif()
+add_library(focal_sanitize INTERFACE)  # of programs in C too, that call a library that is watched
 if(FOCAL_SANITIZE)
   set(sanitize -fsanitize=${FOCAL_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
-  target_compile_options(focal_flags INTERFACE ${sanitize})
-  target_link_options(focal_flags INTERFACE ${sanitize})
+  target_compile_options(focal_sanitize INTERFACE ${sanitize})
+  target_link_options(focal_sanitize INTERFACE ${sanitize} $<$<CXX_COMPILER_ID:Clang>:-fsanitize-link-c++-runtime>)
+  target_link_libraries(focal_sanitize INTERFACE $<$<CXX_COMPILER_ID:Clang>:stdc++>)
 endif()
+target_link_libraries(focal_flags INTERFACE focal_sanitize)
 
 # Our own files only, never those of a project that links them.
 add_library(focal_warnings INTERFACE)

@@ -196,8 +196,9 @@ bool Patch::flip_edges() {
     }
   std::vector<char> turned(triangles.size(), 0);
   std::set<Edge> added;
-  for (const auto& [edge, both] : sides) {
-    const auto [t, s] = both;
+  for (const auto& side : sides) {
+    const Edge& edge = side.first;
+    const auto [t, s] = side.second;
     if (s < 0 || turned[t] || turned[s]) continue;
     const auto opposite = [&](int32_t triangle) {
       for (const int32_t v : triangles[triangle])

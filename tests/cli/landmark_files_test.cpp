@@ -153,14 +153,14 @@ TEST_CASE("damaged and foreign files are refused by name, with a hint") {
       {"short.fcsv", "F_1,1,2,3\n"},
       {"open.pp", "<PickedPoints><point x=\"1\" y=\"2\" z=\"3"},
       {"none.pp", "hello"}};
-  for (const auto& [name, text] : files) {
-    CAPTURE(name);
-    const std::string path = scratch.write(name, text);
+  for (const auto& file : files) {
+    CAPTURE(file.first);
+    const std::string path = scratch.write(file.first, file.second);
     try {
       read_landmark_file(path);
       FAIL("read without complaint");
     } catch (const CommandError& error) {
-      CHECK(std::string(error.what()).find(name) != std::string::npos);
+      CHECK(std::string(error.what()).find(file.first) != std::string::npos);
     }
   }
 }

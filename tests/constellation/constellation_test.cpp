@@ -166,7 +166,8 @@ TEST_CASE("a landmark that suits the others nowhere is left out, and does not pu
 }
 
 TEST_CASE("choices that come near the best one are given too, if they are others") {
-  const auto [marks, twins] = mirror_pairs();
+  const MirrorPairs pairs = mirror_pairs();
+  const auto &marks = pairs.marks, &twins = pairs.twins;
   const ConstellationStatistics statistics = learn_from(mirror_lump, marks);
   std::vector<std::vector<int32_t>> options;
   for (size_t l = 0; l < marks.size(); ++l) options.push_back({marks[l], twins[l]});

@@ -115,7 +115,7 @@ void walk(const LandmarkModel& model) {
 }
 
 std::filesystem::path golden_path(Preset preset) {
-  return std::filesystem::path(__FILE__).parent_path().parent_path() / "golden" /
+  return std::filesystem::path(FOCAL_GOLDEN_FOLDER) /
          (preset == Preset::paper ? "model_1_0_paper.focal" : "model_1_0_default.focal");
 }
 

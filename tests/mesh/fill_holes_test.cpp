@@ -104,10 +104,11 @@ TEST_CASE("spheres with small and wide holes get their area and volume back") {
     int32_t count;
     double radius, tolerance;
   };
-  for (const auto& [count, radius, tolerance] :
+  for (const Holes& holes :
        {Holes{60, 0, 0.002}, Holes{20, 1.5, 0.002}, Holes{25, 2.5, 0.004}, Holes{3, 8, 0.004}}) {
-    CAPTURE(radius);
-    const TriangleMesh holed = with_these_holes(whole, count, radius, 3);
+    CAPTURE(holes.radius);
+    const double tolerance = holes.tolerance;
+    const TriangleMesh holed = with_these_holes(whole, holes.count, holes.radius, 3);
     const FilledMesh filled = fill_holes(holed, {.longest_border = 2});
     CHECK(filled.holes == static_cast<int32_t>(border_loops(holed).size()));
     CHECK(begins_with(filled.mesh, holed));
