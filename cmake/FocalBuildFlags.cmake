@@ -4,6 +4,8 @@ include(CheckCXXCompilerFlag)
 
 set(FOCAL_ARCH "x86-64-v2" CACHE STRING "Oldest x86-64 processor level to run on (-march); empty: the compiler's own")
 set(FOCAL_SANITIZE "" CACHE STRING "Sanitizers to build with: address,undefined or thread; empty: none")
+option(FOCAL_COVERAGE "Count the branches taken in the readers and the C interface (tests/coverage)" OFF)
+option(FOCAL_FUZZ "Fuzz targets of libFuzzer's (needs clang; with FOCAL_SANITIZE they find more)" OFF)
 option(FOCAL_WERROR "Treat warnings as errors" OFF)
 
 add_library(focal_flags INTERFACE)
@@ -25,6 +27,10 @@ if(FOCAL_SANITIZE)
   target_link_libraries(focal_sanitize INTERFACE $<$<CXX_COMPILER_ID:Clang>:stdc++>)
 endif()
 target_link_libraries(focal_flags INTERFACE focal_sanitize)
+if(FOCAL_FUZZ)
+  target_compile_options(focal_flags INTERFACE -fsanitize=fuzzer-no-link)
+  target_link_options(focal_flags INTERFACE -fsanitize=fuzzer-no-link)
+endif()
 
 # Our own files only, never those of a project that links them.
 add_library(focal_warnings INTERFACE)

@@ -8,14 +8,14 @@
 #include <fstream>
 #include <iterator>
 
-#include "base/crc32c.h"
 #include "base/error.h"
 #include "base/random.h"
 #include "descriptors/descriptor.h"
+#include "landmarks/signed_archive.h"
 #include "landmarks/small_model.h"
 
 using namespace focal;
-using focal_test::small_model;
+using focal_test::number_at, focal_test::sign, focal_test::small_model;
 
 namespace {
 
@@ -74,26 +74,6 @@ Status status_of(std::span<const std::byte> file) {
   } catch (const Error& error) {
     return error.status();
   }
-}
-
-// The layout of docs/model-format.md, spelled out once more: a test of the file must not believe its writer.
-uint64_t number_at(const Bytes& file, size_t at, int bytes) {
-  uint64_t value = 0;
-  for (int i = 0; i < bytes; ++i) value |= static_cast<uint64_t>(file[at + i]) << (8 * i);
-  return value;
-}
-
-void put(Bytes& file, size_t at, uint32_t value) {
-  for (int i = 0; i < 4; ++i) file[at + i] = std::byte(value >> (8 * i));
-}
-
-// Makes every checksum right again, so that damage reaches the code behind them.
-void sign(Bytes& file) {
-  const std::span<const std::byte> all(file);
-  const auto sections = number_at(file, 24, 4);
-  for (size_t entry = 32; entry < 32 + sections * 24; entry += 24)
-    put(file, entry + 4, crc32c(all.subspan(number_at(file, entry + 8, 8), number_at(file, entry + 16, 8))));
-  put(file, 28, crc32c(all.subspan(32, sections * 24), crc32c(all.first(28))));
 }
 
 // Everything a detection would index by the model's own numbers.
