@@ -23,6 +23,7 @@ add_library(focal_sanitize INTERFACE)  # of programs in C too, that call a libra
 if(FOCAL_SANITIZE)
   set(sanitize -fsanitize=${FOCAL_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_compile_options(focal_sanitize INTERFACE ${sanitize})
+  target_compile_definitions(focal_sanitize INTERFACE FOCAL_SANITIZED)  # tests do less, all is many times slower
   target_link_options(focal_sanitize INTERFACE ${sanitize} $<$<CXX_COMPILER_ID:Clang>:-fsanitize-link-c++-runtime>)
   target_link_libraries(focal_sanitize INTERFACE $<$<CXX_COMPILER_ID:Clang>:stdc++>)
 endif()

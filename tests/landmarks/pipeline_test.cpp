@@ -51,7 +51,7 @@ const TrainingSet& training_set() {
   return set;
 }
 
-#ifdef __SANITIZE_ADDRESS__  // many times slower: the same code, on less
+#ifdef FOCAL_SANITIZED  // many times slower: the same code, on less
 constexpr bool sanitized = true;
 #else
 constexpr bool sanitized = false;
