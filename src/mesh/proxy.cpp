@@ -23,13 +23,14 @@ Vector3 normal_of(const TriangleMesh& mesh, int32_t t) {
 
 Proxy make_proxy(std::shared_ptr<const PreparedMesh> mesh, int32_t vertices, const Execution& execution,
                  bool fills_holes) {
-  const FilledMesh filled = fills_holes ? fill_holes(mesh->surface) : FilledMesh{};
+  const bool may_have_holes = !mesh->topology || mesh->topology->boundary_loops > 0;
+  const FilledMesh filled = fills_holes && may_have_holes ? fill_holes(mesh->surface) : FilledMesh{};
   const TriangleMesh& surface = filled.holes > 0 ? filled.mesh : mesh->surface;
   const bool is_small = vertices == 0 || surface.vertex_count() <= worth_it * vertices;
   if (is_small && filled.holes == 0) return {mesh, mesh};
   return {mesh,
-          std::make_shared<const PreparedMesh>(
-              prepare(is_small ? surface : decimate(surface, vertices, execution))),
+          std::make_shared<const PreparedMesh>(prepare(
+              is_small ? surface : decimate(surface, vertices, execution), {.repair_orientation = false})),
           filled.holes};
 }
 
