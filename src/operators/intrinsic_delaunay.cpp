@@ -10,14 +10,16 @@
 namespace focal {
 namespace {
 
-constexpr double least_slack = 1e-5;  // of a triangle, in mean edge lengths; as in the paper
-constexpr double tolerance = 1e-10;   // of the sum of cotangents: below, a flip would gain rounding only
+// How much longer two sides of a triangle are than the third, at least, in mean edge lengths: as in the paper; and what no
+// flip may leave, for below it lengths are mostly rounding.
+constexpr double slack_before = 1e-5, slack_after = 1e-12;
+constexpr double tolerance = 1e-10;  // of the sum of cotangents: below, a flip would gain rounding only
 
 class Flipper {
  public:
   // twin: the side that each is glued to, or -1.
   Flipper(IntrinsicTriangulation& surface, std::vector<int32_t> twin)
-      : surface_(surface), twin_(std::move(twin)) {}
+      : surface_(surface), twin_(std::move(twin)), least_slack_(slack_after * surface.lengths.mean()) {}
 
   void run() {
     const auto count = static_cast<int32_t>(twin_.size());
@@ -42,6 +44,7 @@ class Flipper {
     const double area = std::sqrt(std::max((a + b + c) * (b + c - a) * (a + c - b) * (a + b - c), 0.0)) / 4;
     return (b * b + c * c - a * a) / (4 * std::max(area, 1e-30));
   }
+  static double slack(double a, double b, double c) { return a + b + c - 2 * std::max({a, b, c}); }
   bool is_delaunay(int32_t side) const { return cotangent(side) + cotangent(twin_[side]) > -tolerance; }
 
   // The triangles (p, a, b) and (q, b, a) on either side of the edge ab become (p, a, q) and (q, b, p).
@@ -56,11 +59,11 @@ class Flipper {
     const auto [px, py] = place(length(pa), length(bp));
     const auto [qx, qy] = place(length(aq), length(qb));
     const double crossing = std::hypot(px - qx, py + qy);
-    if (!(crossing > 0)) return;
+    const double l_bp = length(bp), l_pa = length(pa), l_aq = length(aq), l_qb = length(qb);
+    if (!(slack(l_pa, l_aq, crossing) > least_slack_ && slack(l_bp, l_qb, crossing) > least_slack_)) return;
     const auto& corner = surface_.triangles;
     const int32_t p = corner(t, side % 3), q = corner(u, other % 3);
     const int32_t a = corner(t, bp % 3), b = corner(t, pa % 3);
-    const double l_bp = length(bp), l_pa = length(pa), l_aq = length(aq), l_qb = length(qb);
     const int32_t outside[4] = {twin_[aq], twin_[pa], twin_[bp], twin_[qb]};
     const int32_t moved_from[4] = {aq, pa, bp, qb};
     // New sides: of t = (p, a, q): opposite to p: aq; to a: qp; to q: pa. Of u = (q, b, p): bp, pq, qb.
@@ -89,6 +92,7 @@ class Flipper {
 
   IntrinsicTriangulation& surface_;
   std::vector<int32_t> twin_, queue_;
+  double least_slack_;
   std::vector<char> queued_;
 };
 
@@ -104,8 +108,8 @@ IntrinsicTriangulation intrinsic_copy(const TriangleMesh& mesh) {
   return result;
 }
 
-void mollify(MatrixX3& lengths) {
-  const double slack = least_slack * lengths.mean();
+void mollify(MatrixX3& lengths, double share) {
+  const double slack = share * lengths.mean();
   double missing = 0;
   for (Eigen::Index t = 0; t < lengths.rows(); ++t)
     missing = std::max(missing, slack + 2 * lengths.row(t).maxCoeff() - lengths.row(t).sum());
@@ -114,7 +118,7 @@ void mollify(MatrixX3& lengths) {
 
 IntrinsicTriangulation intrinsic_delaunay(const TriangleMesh& mesh) {
   IntrinsicTriangulation result = intrinsic_copy(mesh);
-  mollify(result.lengths);
+  mollify(result.lengths, slack_before);
   const EdgeSides edges = edge_sides(mesh);
   auto twin = manifold_gluing(mesh.triangles, edges);
   if (!twin) {

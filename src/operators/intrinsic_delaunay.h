@@ -18,9 +18,9 @@ struct IntrinsicTriangulation {
 // boundary. Lengths are mollified first.
 IntrinsicTriangulation intrinsic_delaunay(const TriangleMesh& mesh);
 
-// Adds to all lengths (m x 3, opposite to the corners) what the flattest triangle lacks to be clearly one: none becomes
-// degenerate, and nothing changes where none was (N. Sharp, K. Crane, "A Laplacian for Nonmanifold Triangle Meshes", 2020).
-void mollify(MatrixX3& lengths);
+// Adds to all lengths (m x 3, opposite to the corners) what the flattest triangle lacks for any two sides to be longer than
+// the third by this share of the mean edge; nothing where none lacks it (N. Sharp, K. Crane, "A Laplacian for Nonmanifold Triangle Meshes", 2020).
+void mollify(MatrixX3& lengths, double share);
 
 // As given, without a flip.
 IntrinsicTriangulation intrinsic_copy(const TriangleMesh& mesh);

@@ -34,6 +34,9 @@ TriangleMeasure measure_corners(const TriangleMesh& mesh, int32_t t, double smal
   return result;
 }
 
+constexpr double least_mass_by_stiffness =
+    1e-10;  // mass, of area, over the diagonal of L: far below what shapes have
+
 struct WeightedEdge {
   int32_t a, b;
   double weight;
@@ -104,6 +107,8 @@ Operators make_operators(const TriangleMesh& mesh, std::span<const std::pair<int
   for (const auto& [a, b] : bridges) edges.push_back({a, b, 1});
   result.mass = result.mass.cwiseMax(1e-9 * result.area / n);  // a vertex of slivers only still has some mass
   result.L = laplacian_of(edges, n);
+  // Nor is any mass so small beside its stiffness that the eigenvalues span more than double precision can hold.
+  result.mass = result.mass.cwiseMax(least_mass_by_stiffness * result.area * result.L.diagonal());
   return result;
 }
 

@@ -203,8 +203,7 @@ int main(int count, char** arguments) {
     const Record& record = records[i];
     all.add(record), by_kind[trials[i].kind].add(record);
     const bool as_promised =
-        record.outcome == Outcome::usable ||
-        (record.outcome == Outcome::refused && !record.should_be_usable && trials[i].file.empty());
+        record.outcome == Outcome::usable || (record.outcome == Outcome::refused && !record.should_be_usable);
     if (!as_promised)
       std::printf("%zu (%s): %s\n", i,
                   trials[i].file.empty() ? trials[i].kind.c_str() : trials[i].file.c_str(), record.note);
