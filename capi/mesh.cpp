@@ -24,8 +24,8 @@ struct StructTraits<focal_mesh_params> {
   static focal_mesh_params defaults();
 };
 static_assert(sizeof(void*) != 8 ||
-              (sizeof(focal_mesh_params) == 80 && offsetof(focal_mesh_params, max_vertices) == 24 &&
-               offsetof(focal_mesh_params, pose_time) == 72));
+              (sizeof(focal_mesh_params) == 88 && offsetof(focal_mesh_params, max_vertices) == 24 &&
+               offsetof(focal_mesh_params, pose_time) == 72 && offsetof(focal_mesh_params, lenient) == 80));
 
 template <>
 struct StructTraits<focal_mesh_desc> {
@@ -40,7 +40,8 @@ struct StructTraits<focal_mesh_info> {
   static constexpr size_t first_size = 72;
   static focal_mesh_info defaults() { return {}; }
 };
-static_assert(sizeof(focal_mesh_info) == 72 && offsetof(focal_mesh_info, repair_seconds) == 64);
+static_assert(sizeof(focal_mesh_info) == 136 && offsetof(focal_mesh_info, repair_seconds) == 64 &&
+              offsetof(focal_mesh_info, is_oriented) == 128);
 
 focal_mesh_params StructTraits<focal_mesh_params>::defaults() {
   const PrepareParams prepare;
@@ -49,6 +50,7 @@ focal_mesh_params StructTraits<focal_mesh_params>::defaults() {
   params.weld = prepare.weld;
   params.drop_degenerate = prepare.drop_degenerate;
   params.bridge_components = prepare.bridge_components;
+  params.lenient = prepare.lenient;
   params.allow_external_files = read.allow_external_files;
   params.keep_source_file = 1;
   params.max_vertices = static_cast<uint64_t>(read.limits.vertices);
@@ -76,6 +78,8 @@ focal_mesh_params checked(const focal_mesh_params* given) {
   check_range("focal_mesh_params.max_json_bytes", static_cast<double>(params.max_json_bytes), 1, 0x1p40);
   check_range("focal_mesh_params.max_file_bytes", static_cast<double>(params.max_file_bytes), 1, 0x1p40);
   check_range("focal_mesh_params.pose_time", params.pose_time, 0, 1e9);
+  check_flag("focal_mesh_params.lenient", params.lenient);
+  check_reserved("focal_mesh_params.reserved", params.reserved);
   return params;
 }
 
@@ -87,6 +91,7 @@ GltfReadParams read_params(const focal_mesh_params& params) {
   read.limits.json_bytes = static_cast<int64_t>(params.max_json_bytes);
   read.limits.file_bytes = static_cast<int64_t>(params.max_file_bytes);
   read.allow_external_files = params.allow_external_files != 0;
+  read.lenient = params.lenient != 0;
   return read;
 }
 
@@ -106,7 +111,8 @@ void check_desc(const focal_mesh_desc& desc, const focal_mesh_params& params) {
                 "raise focal_mesh_params.max_vertices and max_triangles");
 }
 
-TriangleMesh mesh_of(const focal_mesh_desc& desc) {
+// lenient: an index out of range becomes -1, which prepare leaves out.
+TriangleMesh mesh_of(const focal_mesh_desc& desc, bool lenient) {
   TriangleMesh mesh;
   const size_t stride = desc.position_stride ? desc.position_stride / sizeof(float) : 3;
   mesh.positions.resize(static_cast<Eigen::Index>(desc.vertex_count), 3);
@@ -114,12 +120,13 @@ TriangleMesh mesh_of(const focal_mesh_desc& desc) {
     for (int i = 0; i < 3; ++i) mesh.positions(v, i) = desc.positions[static_cast<size_t>(v) * stride + i];
   mesh.triangles.resize(static_cast<Eigen::Index>(desc.index_count / 3), 3);
   for (Eigen::Index i = 0; i < mesh.triangles.size(); ++i) {
-    if (desc.indices[i] >= desc.vertex_count)
+    const bool exists = desc.indices[i] < desc.vertex_count;
+    if (!exists && !lenient)
       throw Error(Status::invalid_mesh,
                   "triangle " + std::to_string(i / 3) + " names vertex " + std::to_string(desc.indices[i]) +
                       ", the mesh has " + std::to_string(desc.vertex_count),
                   "indices run from 0 to vertex_count - 1");
-    mesh.triangles.data()[i] = static_cast<int32_t>(desc.indices[i]);
+    mesh.triangles.data()[i] = exists ? static_cast<int32_t>(desc.indices[i]) : -1;
   }
   return mesh;
 }
@@ -131,6 +138,7 @@ void finish(MeshObject& object, TriangleMesh source, const focal_mesh_params& pa
   prepare_params.weld = params.weld != 0;
   prepare_params.drop_degenerate = params.drop_degenerate != 0;
   prepare_params.bridge_components = params.bridge_components != 0;
+  prepare_params.lenient = params.lenient != 0;
   auto mesh = std::make_shared<const PreparedMesh>(prepare(std::move(source), prepare_params));
   object.positions.resize(static_cast<size_t>(mesh->source.positions.size()));
   for (size_t i = 0; i < object.positions.size(); ++i)
@@ -140,6 +148,30 @@ void finish(MeshObject& object, TriangleMesh source, const focal_mesh_params& pa
   object.warnings.insert(object.warnings.end(), mesh->warnings.begin(), mesh->warnings.end());
   object.mesh = std::move(mesh);
   object.repair_seconds = watch.lap();
+}
+
+focal_mesh_info info_of(const MeshObject& object) {
+  const PreparedMesh& mesh = *object.mesh;
+  const auto count = [](int64_t value) { return static_cast<uint64_t>(value); };
+  focal_mesh_info info{};
+  info.warning_count = static_cast<uint32_t>(object.warnings.size());
+  info.vertex_count = count(mesh.source.vertex_count());
+  info.triangle_count = count(mesh.source.triangle_count());
+  info.surface_vertex_count = count(mesh.surface.vertex_count());
+  info.surface_triangle_count = count(mesh.surface.triangle_count());
+  info.mean_edge_length = object.mean_edge_length;
+  info.surface_area = object.surface_area;
+  info.load_seconds = object.load_seconds;
+  info.repair_seconds = object.repair_seconds;
+  info.invalid_triangles = count(mesh.invalid_triangles);
+  info.degenerate_triangles = count(degenerate_triangles(mesh));
+  info.flipped_triangles = count(flipped_triangles(mesh));
+  info.nonmanifold_edges = count(mesh.topology->nonmanifold_edges);
+  info.nonmanifold_vertices = count(mesh.topology->nonmanifold_vertices);
+  info.boundary_loops = count(mesh.topology->boundary_loops);
+  info.component_count = count(mesh.components);
+  info.is_oriented = mesh.is_oriented;
+  return info;
 }
 
 struct LoadedFile {
@@ -235,7 +267,7 @@ focal_status focal_mesh_create(const focal_context* context, const focal_mesh_de
     const focal_mesh_params how = checked(params);
     check_desc(description, how);
     const auto object = std::make_shared<MeshObject>();
-    finish(*object, mesh_of(description), how);
+    finish(*object, mesh_of(description, how.lenient != 0), how);
     running->report_warnings(object->warnings);
     *out_mesh = publish(object);
   });
@@ -272,17 +304,7 @@ focal_status focal_mesh_info_init(focal_mesh_info* info, size_t struct_size) {
 focal_status focal_mesh_get_info(const focal_mesh* mesh, focal_mesh_info* out_info) {
   return guarded([&] {
     const auto object = resolve<MeshObject>(mesh);
-    focal_mesh_info info{};
-    info.warning_count = static_cast<uint32_t>(object->warnings.size());
-    info.vertex_count = static_cast<uint64_t>(object->mesh->source.vertex_count());
-    info.triangle_count = static_cast<uint64_t>(object->mesh->source.triangle_count());
-    info.surface_vertex_count = static_cast<uint64_t>(object->mesh->surface.vertex_count());
-    info.surface_triangle_count = static_cast<uint64_t>(object->mesh->surface.triangle_count());
-    info.mean_edge_length = object->mean_edge_length;
-    info.surface_area = object->surface_area;
-    info.load_seconds = object->load_seconds;
-    info.repair_seconds = object->repair_seconds;
-    write_result(out_info, info);
+    write_result(out_info, info_of(*object));
   });
 }
 

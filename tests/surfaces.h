@@ -68,6 +68,51 @@ inline focal::TriangleMesh square(int half, double jitter = 0, uint64_t seed = 1
   return mesh;
 }
 
+// A strip of columns x rows quads, twisted by half a turn and closed: one side, one border.
+inline focal::TriangleMesh moebius_strip(int columns, int rows) {
+  focal::TriangleMesh mesh;
+  mesh.positions.resize(columns * (rows + 1), 3);
+  mesh.triangles.resize(2 * columns * rows, 3);
+  for (int i = 0; i < columns; ++i)
+    for (int j = 0; j <= rows; ++j) {
+      const double along = 2 * M_PI * i / columns, width = 0.6 * (static_cast<double>(j) / rows - 0.5);
+      const double r = 1 + width * std::cos(along / 2);
+      mesh.positions.row(i * (rows + 1) + j) << r * std::cos(along), r * std::sin(along),
+          width * std::sin(along / 2);
+    }
+  const auto at = [&](int i, int j) { return i < columns ? i * (rows + 1) + j : rows - j; };
+  int t = 0;
+  for (int i = 0; i < columns; ++i)
+    for (int j = 0; j < rows; ++j) {
+      mesh.triangles.row(t++) << at(i, j), at(i + 1, j), at(i + 1, j + 1);
+      mesh.triangles.row(t++) << at(i, j), at(i + 1, j + 1), at(i, j + 1);
+    }
+  return mesh;
+}
+
+// Three sheets of (2 half + 1)^2 vertices that share a spine along z, at 120 degrees to each other.
+inline focal::TriangleMesh book(int half) {
+  const focal::TriangleMesh page = square(half);
+  const int side = 2 * half + 1, n = page.vertex_count(), m = page.triangle_count(), outer = n - side;
+  focal::TriangleMesh mesh;
+  mesh.positions.resize(side + 3 * outer, 3);
+  mesh.triangles.resize(3 * m, 3);
+  for (int sheet = 0; sheet < 3; ++sheet) {
+    const double turn = 2 * M_PI * sheet / 3;
+    const auto number = [&](int v) {  // the first column is the spine
+      const int x = v % side, y = v / side;
+      return x == 0 ? y : side + sheet * outer + y * (side - 1) + x - 1;
+    };
+    for (int v = 0; v < n; ++v) {
+      const double out = page.positions(v, 0) + 1;
+      mesh.positions.row(number(v)) << out * std::cos(turn), out * std::sin(turn), page.positions(v, 1);
+    }
+    for (int t = 0; t < m; ++t)
+      for (int i = 0; i < 3; ++i) mesh.triangles(sheet * m + t, i) = number(page.triangles(t, i));
+  }
+  return mesh;
+}
+
 // Every vertex moved along its own direction from the origin to radius(direction).
 inline focal::TriangleMesh with_radius(focal::TriangleMesh mesh,
                                        const std::function<double(const focal::Vector3&)>& radius) {

@@ -49,7 +49,7 @@ std::vector<fs::path> meshes_in(const std::string& folder, const std::string& sh
 // The mesh's own file with landmarks, and with a skeleton if asked for.
 Json process(const Context& context, const focal_model* model, const fs::path& file, const fs::path& target,
              const Options& options, focal_task* task) {
-  const Mesh mesh = load_mesh(context.get(), file.string());
+  const Mesh mesh = load_mesh(context.get(), file.string(), options.lenient);
   auto params = detect_params_of(options.quality, options);
   params.keep_votes = 0;
   const auto detection = owned<Detection>(focal_model_detect, model, mesh.get(), &params, task);
@@ -131,6 +131,7 @@ void add_batch(CLI::App& app) {
   verb->add_option("--shard", options->shard, "Only part I of N of the files, to share the work")
       ->type_name("I/N");
   add_quality_option(*verb, options->quality);
+  add_lenient_option(*verb, *options);
   add_common_options(*verb, *options);
   verb->callback([options] { batch(*options); });
 }

@@ -60,6 +60,14 @@ Json mesh_json(const focal_mesh* mesh, const std::string& path) {
           {"surface_triangles", info.surface_triangle_count},
           {"mean_edge_length", info.mean_edge_length},
           {"surface_area", info.surface_area},
+          {"invalid_triangles", info.invalid_triangles},
+          {"degenerate_triangles", info.degenerate_triangles},
+          {"flipped_triangles", info.flipped_triangles},
+          {"nonmanifold_edges", info.nonmanifold_edges},
+          {"nonmanifold_vertices", info.nonmanifold_vertices},
+          {"boundary_loops", info.boundary_loops},
+          {"components", info.component_count},
+          {"oriented", info.is_oriented != 0},
           {"seconds", {{"load", info.load_seconds}, {"repair", info.repair_seconds}}},
           {"warnings", warnings}};
 }
@@ -88,7 +96,7 @@ void info(const Options& options) {
   const Context context = make_context(options);
   const Json report =
       is_mesh(options.file)
-          ? mesh_json(load_mesh(context.get(), options.file).get(), options.file)
+          ? mesh_json(load_mesh(context.get(), options.file, options.lenient).get(), options.file)
           : model_json(owned<Model>(focal_model_load, context.get(), options.file.c_str()).get(),
                        options.file);
   if (options.json) print_json(report);
@@ -101,6 +109,7 @@ void add_info(CLI::App& app) {
   CLI::App* verb = app.add_subcommand("info", "Show what is in a model or a mesh");
   const auto options = std::make_shared<Options>();
   verb->add_option("FILE", options->file, "Model file, .glb or .gltf")->type_name("")->required();
+  add_lenient_option(*verb, *options);
   add_common_options(*verb, *options);
   verb->callback([options] { info(*options); });
 }

@@ -17,14 +17,15 @@ struct MarkedMesh {
   double load_seconds = 0;                           // of the mesh, as waited for
 };
 
-Mesh load_mesh(const focal_context* context, const std::string& path);
+Mesh load_mesh(const focal_context* context, const std::string& path, bool lenient);
 focal_mesh_info info_of(const focal_mesh* mesh);
 Position position_of(const focal_mesh* mesh, const focal_surface_point& point);
 
 // Where a mark lies: on its triangle, at its vertex, or else at the surface point nearest to its position.
 focal_surface_point place_of(const focal_mesh* mesh, const Landmark& mark);
 
-MarkedMesh load_marked_mesh(const focal_context* context, const SetFolder& set, const std::string& name);
+MarkedMesh load_marked_mesh(const focal_context* context, const SetFolder& set, const std::string& name,
+                            bool lenient);
 
 // The meshes as a training set for all landmarks of the set.
 TrainingSet training_set_of(const focal_context* context, const SetFolder& set,

@@ -16,6 +16,12 @@ void add_choice(CLI::App& verb, const std::string& name, int32_t& value, const s
   verb.add_option(name, value, help)->type_name(words)->transform(CLI::Validator(number_of_word, ""));
 }
 
+void add_lenient_option(CLI::App& verb, CommonOptions& options) {
+  verb.add_flag("--lenient", options.lenient,
+                "Leave out triangles with NaN or infinite positions or indices out of range, instead of "
+                "refusing the mesh");
+}
+
 void add_common_options(CLI::App& verb, CommonOptions& options) {
   // The parser alone would turn -3 into a large seed without a word.
   const auto unsigned_only = [](std::string& text) {

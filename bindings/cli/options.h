@@ -11,7 +11,7 @@
 namespace focal_cli {
 
 struct CommonOptions {
-  bool json = false;
+  bool json = false, lenient = false;
   bool quiet = false;
   int32_t threads = 0;
   focal_backend backend = FOCAL_BACKEND_AUTO;
@@ -24,6 +24,8 @@ struct CommonOptions {
 void add_choice(CLI::App& verb, const std::string& name, int32_t& value, const std::string& help,
                 const std::string& words, const std::map<std::string, int32_t>& choices);
 
+// --lenient, for the verbs that load a mesh.
+void add_lenient_option(CLI::App& verb, CommonOptions& options);
 void add_common_options(CLI::App& verb, CommonOptions& options);
 
 // Says on stderr when the backend that was asked for could not be had.

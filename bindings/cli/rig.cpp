@@ -143,12 +143,13 @@ void rig(const Options& options) {
         "the model knows no skeleton",
         "train one on rigged characters: focal train --rigs A.glb -o MODEL; or describe one over its "
         "landmarks: --template FILE.json");
-  const Mesh mesh = load_mesh(context.get(), options.mesh);
+  const Mesh mesh = load_mesh(context.get(), options.mesh, options.lenient);
   auto params = detect_params_of(options.quality, options);
   params.keep_votes = 0;
   const auto detection = owned<Detection>(focal_model_detect, model.get(), mesh.get(), &params,
                                           progress.begin("detecting", 0, 2));
-  const Mesh animations = options.animations.empty() ? nullptr : load_mesh(context.get(), options.animations);
+  const Mesh animations =
+      options.animations.empty() ? nullptr : load_mesh(context.get(), options.animations, options.lenient);
   const Skeleton skeleton =
       skeleton_of(options, model.get(), detection.get(), animations.get(), progress.begin("rigging", 1, 2));
   check(focal_skeleton_write_gltf(skeleton.get(), options.output.c_str()));
@@ -193,6 +194,7 @@ void add_rig(CLI::App& app) {
                    "Rigged character whose animations go into the file too, retargeted")
       ->type_name("CHARACTER.glb");
   add_quality_option(*verb, options->quality);
+  add_lenient_option(*verb, *options);
   add_common_options(*verb, *options);
   verb->callback([options] { rig(*options); });
 }

@@ -20,11 +20,11 @@ struct Options : CommonOptions, TrainOptions {
 };
 
 std::vector<MarkedMesh> load_all(const focal_context* context, const SetFolder& set,
-                                 const std::vector<std::string>& names, Progress& progress) {
+                                 const std::vector<std::string>& names, bool lenient, Progress& progress) {
   std::vector<MarkedMesh> meshes;
   for (const std::string& name : names) {
     progress.begin("loading " + name);
-    meshes.push_back(load_marked_mesh(context, set, name));
+    meshes.push_back(load_marked_mesh(context, set, name, lenient));
   }
   return meshes;
 }
@@ -56,7 +56,7 @@ void train_on_rigs(const Options& options) {
                                                static_cast<const char* const*>(nullptr), uint64_t{0});
   for (const std::string& path : options.rigs) {
     progress.begin("loading " + path);
-    const Mesh mesh = load_mesh(context.get(), path);
+    const Mesh mesh = load_mesh(context.get(), path, options.lenient);
     check(focal_training_set_add_rig(training_set.get(), mesh.get()), path + ": ");
   }
   const focal_train_params params = train_params_of(options, options);
@@ -94,7 +94,7 @@ void train(const Options& options) {
   check_output_folder(options.output);
   const Context context = make_context(options);
   Progress progress(options.quiet);
-  const std::vector<MarkedMesh> meshes = load_all(context.get(), set, names, progress);
+  const std::vector<MarkedMesh> meshes = load_all(context.get(), set, names, options.lenient, progress);
   std::vector<const MarkedMesh*> pointers;
   for (const MarkedMesh& mesh : meshes) pointers.push_back(&mesh);
   const TrainingSet training_set = training_set_of(context.get(), set, pointers);
@@ -133,6 +133,7 @@ void add_train(CLI::App& app) {
       ->type_name("N")
       ->check(CLI::Range(1, 1000000000).description(""));
   add_train_options(*verb, *options);
+  add_lenient_option(*verb, *options);
   add_common_options(*verb, *options);
   verb->callback([options] { train(*options); });
 }

@@ -197,6 +197,11 @@ typedef struct focal_mesh_params {
      results are written as a plain .glb. NULL: none. */
   const char* pose_animation;
   double pose_time;
+  /* 1: triangles with a NaN or infinite corner, or an index out of range, are left out with a warning
+     instead of refusing the mesh (INVALID_MESH); for files too. Their numbers stay taken:
+     focal_mesh_triangles gives 0 0 0 there, focal_mesh_positions 0 0 0 for a vertex at no place. Default 0 */
+  int32_t lenient;
+  int32_t reserved;
 } focal_mesh_params;
 
 FOCAL_API focal_status focal_mesh_params_init(focal_mesh_params* params, size_t struct_size);
@@ -215,6 +220,9 @@ typedef struct focal_mesh_desc {
 FOCAL_API focal_status focal_mesh_desc_init(focal_mesh_desc* desc, size_t struct_size);
 
 /* Each makes a mesh and prepares its surface (welded, cleaned, scaled), about 0.1 s for 100,000 triangles.
+ * Triangles that face the other way than their neighbours, and closed parts that are inside out, are turned
+ * over for the analysis; surface points always refer to the corners in the caller's order. Edges of more than
+ * two triangles are allowed.
  * params may be NULL. Errors: INVALID_MESH, MESH_TOO_SMALL; from files also FILE_NOT_FOUND, IO, INVALID_FILE,
  * UNSUPPORTED. A glTF scene (.gltf or .glb) becomes one mesh: all triangle primitives in node order, node
  * transforms applied, skins at bind pose; vertices and triangles are numbered through in that order. From
@@ -238,7 +246,19 @@ typedef struct focal_mesh_info {
   double mean_edge_length; /* of the surface, over its undirected edges */
   double surface_area;     /* of the surface */
   double load_seconds;     /* reading and decoding */
-  double repair_seconds;   /* weld, clean, scale */
+  double repair_seconds;   /* weld, clean, scale, look at the topology */
+  /* What was found and done, all 0 on a sound closed mesh but component_count and is_oriented, which are 1 */
+  uint64_t invalid_triangles;    /* left out by focal_mesh_params.lenient */
+  uint64_t degenerate_triangles; /* with a repeated corner or repeated: left out (drop_degenerate) */
+  uint64_t flipped_triangles;    /* turned over for the analysis */
+  uint64_t nonmanifold_edges;    /* of the surface: shared by more than two triangles */
+  uint64_t nonmanifold_vertices; /* of the surface: where parts of it meet in nothing but a point */
+  uint64_t boundary_loops;  /* of the surface: connected curves of edges of one triangle: holes, open ends */
+  uint64_t component_count; /* of the surface: its separate parts */
+  /* 0: so much of the surface has only one side (as a Moebius strip) that its triangles cannot be turned to
+     face one way; detection then tells left from right by distances alone */
+  int32_t is_oriented;
+  uint32_t reserved;
 } focal_mesh_info;
 
 FOCAL_API focal_status focal_mesh_info_init(focal_mesh_info* info, size_t struct_size);

@@ -285,7 +285,7 @@ ConstellationStatistics learn_constellation(std::span<const ConstellationSample>
               distance_share, result.distance_mean(c, a), result.distance_sd(c, a));
       for (int32_t b = 0; b < landmarks; ++b)
         if (b != a && b != c)
-          moments([&](const auto& s) { return s.present[c] && s.present[a] && s.present[b]; },
+          moments([&](const auto& s) { return s.handed && s.present[c] && s.present[a] && s.present[b]; },
                   [&](const auto& s) { return s.directions.handedness(c, a, b); }, handedness_floor, 0,
                   result.handedness_mean[result.index(c, a, b)], result.handedness_sd[result.index(c, a, b)]);
     }

@@ -39,6 +39,7 @@ struct ConstellationSample {
   std::vector<char> present;  // L
   RowMatrixf distance;        // L x L
   TangentDirections directions;
+  bool handed = true;  // its triangles all face one way; else nothing is learned of its handedness
 };
 ConstellationStatistics learn_constellation(std::span<const ConstellationSample> samples, int32_t landmarks);
 

@@ -62,7 +62,7 @@ TangentDirections tangent_directions(const TriangleMesh& mesh, std::span<const S
       normal += faces.back().area * normals.row(t).transpose();
       area += faces.back().area;
     }
-    if (!(area > 0)) return;
+    if (!(area > 0) || normal.isZero(0)) return;  // sheets back to back face nowhere
     normal.normalize();
     const Vector3 e1 = normal.unitOrthogonal(), e2 = normal.cross(e1);
     for (int32_t a = 0; a < count; ++a) {

@@ -108,7 +108,8 @@ class Plan {
   std::vector<Part> parts_;
 };
 
-void read_positions(const json& root, GltfBuffers& buffers, const Part& part, MatrixX3& positions) {
+void read_positions(const json& root, GltfBuffers& buffers, const Part& part, bool lenient,
+                    MatrixX3& positions) {
   const RowMatrix local =
       read_accessor(root, buffers, (*part.primitive)["attributes"]["POSITION"].get<int64_t>());
   const auto linear = part.range.world_transform.topLeftCorner<3, 3>();
@@ -116,14 +117,15 @@ void read_positions(const json& root, GltfBuffers& buffers, const Part& part, Ma
   auto world = positions.middleRows(part.range.first_vertex, part.range.vertex_count);
   world = (local * linear.transpose()).rowwise() + offset.transpose();
   for (Eigen::Index vertex = 0; vertex < world.rows(); ++vertex)
-    if (!world.row(vertex).allFinite())
+    if (!lenient && !world.row(vertex).allFinite())
       throw Error(Status::invalid_mesh,
                   name_of(part.range.mesh, part.range.primitive) + ": vertex " + std::to_string(vertex) +
                       " lies at a position that is not finite",
                   "repair the mesh in the program it was made with");
 }
 
-void read_triangles(const json& root, GltfBuffers& buffers, const Part& part, MatrixX3i& triangles) {
+void read_triangles(const json& root, GltfBuffers& buffers, const Part& part, bool lenient,
+                    MatrixX3i& triangles) {
   const json* indices = member(*part.primitive, "indices");
   RowMatrix corners;
   if (indices) corners = read_accessor(root, buffers, indices->get<int64_t>());
@@ -135,19 +137,22 @@ void read_triangles(const json& root, GltfBuffers& buffers, const Part& part, Ma
     if (part.range.mirrored) std::swap(at[1], at[2]);
     for (int k = 0; k < 3; ++k) {
       const int64_t vertex = corner(at[static_cast<size_t>(k)]);
-      if (vertex >= part.range.vertex_count)
+      const bool exists = vertex < part.range.vertex_count;
+      if (!exists && !lenient)
         throw Error(Status::invalid_mesh,
                     name_of(part.range.mesh, part.range.primitive) + ": triangle " + std::to_string(t) +
                         " refers to vertex " + std::to_string(vertex) + " of " +
                         std::to_string(part.range.vertex_count),
                     "export the mesh again");
-      triangles(part.range.first_triangle + t, k) = static_cast<int32_t>(part.range.first_vertex + vertex);
+      triangles(part.range.first_triangle + t, k) =
+          exists ? static_cast<int32_t>(part.range.first_vertex + vertex) : -1;
     }
   }
 }
 
-GltfMesh read(std::span<const std::byte> bytes, const GltfLimits& limits,
+GltfMesh read(std::span<const std::byte> bytes, const GltfReadParams& params,
               std::optional<std::filesystem::path> folder) {
+  const GltfLimits& limits = params.limits;
   const GltfContainer container = open_container(bytes, limits);
   const JsonDocument document = parse_gltf(container, limits);
   const json& root = document.root();
@@ -164,8 +169,8 @@ GltfMesh read(std::span<const std::byte> bytes, const GltfLimits& limits,
     if (part.mode == kTriangles && part.corners % 3 != 0)
       result.warnings.push_back(name_of(part.range.mesh, part.range.primitive) +
                                 ": the number of corners is no multiple of three; the rest was left out");
-    read_positions(root, buffers, part, result.mesh.positions);
-    read_triangles(root, buffers, part, result.mesh.triangles);
+    read_positions(root, buffers, part, params.lenient, result.mesh.positions);
+    read_triangles(root, buffers, part, params.lenient, result.mesh.triangles);
     result.primitives.push_back(part.range);
   }
   // Said last, since a buffer that cannot be read is the better explanation.
@@ -180,11 +185,11 @@ GltfMesh read_gltf(const std::filesystem::path& path, const GltfReadParams& para
   const auto bytes = read_file(path, params.limits.file_bytes);
   std::optional<std::filesystem::path> folder;
   if (params.allow_external_files) folder = path.parent_path();
-  return read(bytes, params.limits, std::move(folder));
+  return read(bytes, params, std::move(folder));
 }
 
 GltfMesh read_gltf_memory(std::span<const std::byte> bytes, const GltfReadParams& params) {
-  return read(bytes, params.limits, std::nullopt);
+  return read(bytes, params, std::nullopt);
 }
 
 }  // namespace focal

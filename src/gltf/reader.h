@@ -19,6 +19,8 @@ struct GltfReadParams {
   GltfLimits limits;
   // Also read buffers from files beside the .gltf: regular files inside its folder, no links. read_gltf only.
   bool allow_external_files = false;
+  // Positions that are not finite stay as they are, and an index out of range becomes -1, for prepare to leave out.
+  bool lenient = false;
 };
 
 // Where a primitive of the file went in the merged mesh.

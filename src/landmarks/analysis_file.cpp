@@ -52,7 +52,8 @@ Proxy read_proxy(ByteReader in, std::shared_ptr<const PreparedMesh> full) {
     mesh.triangles.data()[i] = in.i32("corner", 0, vertices - 1);
   in.expect_end();
   if (vertices == 0) return {full, full};
-  return {full, std::make_shared<const PreparedMesh>(prepare(std::move(mesh))), 0};
+  return {full, std::make_shared<const PreparedMesh>(prepare(std::move(mesh), {.repair_orientation = false})),
+          0};
 }
 
 std::vector<std::byte> samples_section(const SurfaceAnalysis& analysis) {

@@ -167,6 +167,8 @@ Detection detect(std::shared_ptr<const LandmarkModel> model, const SurfaceAnalys
   result.category_fit = judgement.category_fit;
   if (analysis.heat.time_was_raised())
     result.warnings.push_back("the mesh is so fine that the time step of the heat method was raised");
+  if (!paper && !analysis.proxy.full->is_oriented)
+    result.warnings.push_back("left and right were told apart by distances alone, not by handedness");
   if (const int32_t holes = analysis.proxy.filled_holes)
     result.warnings.push_back(std::to_string(holes) + (holes == 1 ? " hole was" : " holes were") +
                               " closed for the analysis");

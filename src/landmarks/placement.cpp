@@ -146,8 +146,9 @@ Placement place_landmarks(const LandmarkModel& model, const SurfaceAnalysis& ana
   std::vector<int32_t> vertices;
   ConstellationCandidates candidates = make_candidates(peaks, result.votes, analysis, vertices, execution);
   candidates.certain = std::move(certain);
-  const auto choices =
-      choose_constellations(model.constellation, candidates, ConstellationParams{}, execution);
+  ConstellationParams how;
+  if (!analysis.proxy.full->is_oriented) how.handedness_weight = 0;
+  const auto choices = choose_constellations(model.constellation, candidates, how, execution);
   seconds.constellation += watch.lap();
   std::vector<Placement> placements(choices.size(), result);
   size_t best = 0;

@@ -92,6 +92,7 @@ LearnedShape learn_shape(const MarkedShape& shape, const SurfaceAnalysis& analys
   const RowMatrixf& fields = result.fields;
   result.targets = RowMatrixf::Constant(analysis.samples.size(), L, NAN);
   auto& constellation = result.constellation;
+  constellation.handed = shape.mesh->is_oriented;
   constellation.distance = RowMatrixf::Zero(L, L);
   constellation.directions = {RowMatrixf::Zero(L, L), RowMatrixf::Zero(L, L)};
   const TangentDirections directions =

@@ -6,45 +6,23 @@
 #include <set>
 
 #include "mesh/components.h"
+#include "mesh/edges.h"
 #include "mesh/hole_patch.h"
 
 namespace focal {
 namespace {
 
 struct BorderEdge {
-  int32_t from = 0, to = 0, triangle = 0;  // as the hole runs: against its triangle's direction
+  int32_t from = 0, to = 0;  // as the hole runs: against its triangle's direction
 };
 
-// Edges of exactly one triangle, sorted by `from`. Sorted by counting: a mesh of millions without a hole costs little.
+// Edges of exactly one triangle, sorted by `from`.
 std::vector<BorderEdge> border_edges(const TriangleMesh& mesh) {
-  struct Half {
-    int32_t larger, triangle;
-  };
-  std::vector<int32_t> start(mesh.vertex_count() + 1, 0);
-  const auto for_each_edge = [&](const auto& visit) {
-    for (int32_t t = 0; t < mesh.triangle_count(); ++t)
-      for (int i = 0; i < 3; ++i) {
-        const int32_t a = mesh.triangles(t, i), b = mesh.triangles(t, (i + 1) % 3);
-        visit(std::min(a, b), std::max(a, b), a < b ? t : ~t);  // ~t: runs from the larger to the smaller
-      }
-  };
-  for_each_edge([&](int32_t a, int32_t, int32_t) { ++start[a + 1]; });
-  for (size_t v = 1; v < start.size(); ++v) start[v] += start[v - 1];
-  std::vector<Half> halves(3 * static_cast<size_t>(mesh.triangle_count()));
-  std::vector<int32_t> next(start.begin(), start.end() - 1);
-  for_each_edge([&](int32_t a, int32_t b, int32_t t) { halves[next[a]++] = {b, t}; });
+  const EdgeSides edges = edge_sides(mesh);
   std::vector<BorderEdge> border;
-  for (int32_t a = 0; a < mesh.vertex_count(); ++a) {
-    const auto first = halves.begin() + start[a], last = halves.begin() + start[a + 1];
-    std::sort(first, last, [](const Half& x, const Half& y) { return x.larger < y.larger; });
-    for (auto h = first; h != last;) {
-      auto end = h;
-      while (end != last && end->larger == h->larger) ++end;
-      const int32_t b = h->larger, t = h->triangle;
-      if (end - h == 1) border.push_back(t >= 0 ? BorderEdge{b, a, t} : BorderEdge{a, b, ~t});
-      h = end;
-    }
-  }
+  for (int32_t e = 0; e < edges.edge_count(); ++e)
+    if (const auto sides = edges.of_edge(e); sides.size() == 1)
+      border.push_back({side_to(mesh.triangles, sides[0]), side_from(mesh.triangles, sides[0])});
   std::sort(border.begin(), border.end(), [](const BorderEdge& x, const BorderEdge& y) {
     return std::pair(x.from, x.to) < std::pair(y.from, y.to);
   });

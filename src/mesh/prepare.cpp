@@ -15,16 +15,39 @@ namespace {
 
 constexpr int32_t smallest_surface = 12;  // vertices; fewer carry no shape to learn from
 
-void validate(const TriangleMesh& mesh) {
+void require_triangles(const TriangleMesh& mesh) {
   if (mesh.triangle_count() == 0)
     throw Error(Status::invalid_mesh, "the mesh has no triangles",
                 "give a triangle mesh; points and lines are not analysed");
+}
+
+void validate(const TriangleMesh& mesh) {
   if (!mesh.positions.allFinite())
     throw Error(Status::invalid_mesh, "a vertex position is NaN or infinite",
                 "clean the mesh in the tool that made it and export it again");
   if (mesh.triangles.minCoeff() < 0 || mesh.triangles.maxCoeff() >= mesh.vertex_count())
     throw Error(Status::invalid_mesh, "a triangle names a vertex that does not exist",
                 "indices run from 0 to the number of vertices - 1");
+}
+
+// What cannot be analysed.
+struct Invalid {
+  std::vector<char> vertex, triangle;
+};
+
+// Finds it and puts something harmless in its place.
+Invalid replace_invalid(TriangleMesh& mesh) {
+  Invalid result{std::vector<char>(mesh.vertex_count(), 0), std::vector<char>(mesh.triangle_count(), 0)};
+  for (int32_t v = 0; v < mesh.vertex_count(); ++v)
+    if (!mesh.positions.row(v).allFinite()) result.vertex[v] = 1, mesh.positions.row(v).setZero();
+  for (int32_t t = 0; t < mesh.triangle_count(); ++t)
+    for (int i = 0; i < 3; ++i) {
+      const int32_t v = mesh.triangles(t, i);
+      if (v < 0 || v >= mesh.vertex_count() || result.vertex[v]) result.triangle[t] = 1;
+    }
+  for (int32_t t = 0; t < mesh.triangle_count(); ++t)
+    if (result.triangle[t]) mesh.triangles.row(t).setZero();
+  return result;
 }
 
 uint64_t mixed(
@@ -55,8 +78,9 @@ std::vector<int32_t> weld(const MatrixX3& positions) {
 }
 
 // The source triangles that stay, after dropping repeated corners and repeats of the same corner set. Those kept are
-// chained by their smallest corner, so that only a few are compared.
-std::vector<int32_t> kept_triangles(const MatrixX3i& corners, int32_t vertex_count, bool drop) {
+// chained by their smallest corner, so that only a few are compared. invalid: others that go; empty: none.
+std::vector<int32_t> kept_triangles(const MatrixX3i& corners, int32_t vertex_count, bool drop,
+                                    const std::vector<char>& invalid) {
   std::vector<int32_t> kept;
   kept.reserve(corners.rows());
   const auto sorted = [&](int32_t t) {
@@ -67,6 +91,7 @@ std::vector<int32_t> kept_triangles(const MatrixX3i& corners, int32_t vertex_cou
   std::vector<int32_t> head(drop ? vertex_count : 0, -1), next;
   next.reserve(drop ? corners.rows() : 0);
   for (int32_t t = 0; t < corners.rows(); ++t) {
+    if (!invalid.empty() && invalid[t]) continue;
     if (drop) {
       const auto c = sorted(t);
       if (c[0] == c[1] || c[1] == c[2]) continue;
@@ -122,44 +147,106 @@ void normalise(PreparedMesh& mesh) {
   mesh.scale = size * std::sqrt(area);
 }
 
-void warn(PreparedMesh& mesh, const Components& components) {
+// Turns over what Orientation says, in the surface and for to_surface and to_source.
+void inspect(PreparedMesh& mesh) {
+  const EdgeSides edges = edge_sides(mesh.surface);
+  mesh.topology = topology_of(mesh.surface, edges);
+  Orientation orientation = consistent_orientation(mesh.surface, edges);
+  mesh.is_oriented = orientation.is_consistent;
+  if (orientation.flips == 0) return;
+  mesh.flipped = std::move(orientation.flipped);
+  for (int32_t t = 0; t < mesh.surface.triangle_count(); ++t)
+    if (mesh.flipped[t]) std::swap(mesh.surface.triangles(t, 1), mesh.surface.triangles(t, 2));
+}
+
+void warn_of_topology(PreparedMesh& mesh) {
+  const auto say = [&](int64_t count, const char* one, const char* several) {
+    if (count > 0) mesh.warnings.push_back(std::to_string(count) + (count == 1 ? one : several));
+  };
+  say(mesh.topology->nonmanifold_edges, " edge is shared by more than two triangles",
+      " edges are shared by more than two triangles");
+  say(mesh.topology->nonmanifold_vertices, " vertex holds parts of the surface together in a mere point",
+      " vertices hold parts of the surface together in a mere point");
+  say(flipped_triangles(mesh), " triangle faces the wrong way; it is turned over for the analysis",
+      " triangles face the wrong way; they are turned over for the analysis");
+  if (!mesh.is_oriented)
+    mesh.warnings.push_back(
+        "the triangles cannot be turned to face one way (as on a Moebius strip): left and right may be "
+        "mistaken");
+}
+
+void warn(PreparedMesh& mesh) {
   const auto say = [&](const std::string& text) { mesh.warnings.push_back(text); };
-  if (const auto dropped = mesh.source.triangle_count() - mesh.surface.triangle_count())
+  if (mesh.invalid_triangles > 0)
+    say(std::to_string(mesh.invalid_triangles) +
+        " triangles with a NaN or infinite corner, or an index out of range, are left out");
+  if (const auto dropped = degenerate_triangles(mesh))
     say(std::to_string(dropped) + " degenerate or repeated triangles are ignored");
-  if (components.count > 1)
-    say("the surface has " + std::to_string(components.count) + " separate parts; they are analysed as one" +
+  if (mesh.components > 1)
+    say("the surface has " + std::to_string(mesh.components) + " separate parts; they are analysed as one" +
         (mesh.bridges.empty() ? "" : ", bridged at the nearest vertices"));
+  if (mesh.topology) warn_of_topology(mesh);
+}
+
+// Not to the vertex at the origin that replace_invalid made of it.
+void forget(const std::vector<char>& invalid_vertices, PreparedMesh& mesh) {
+  for (size_t v = 0; v < invalid_vertices.size(); ++v)
+    if (invalid_vertices[v]) mesh.surface_vertex[v] = -1;
+}
+
+// The same point in the other numbering of its triangle's corners.
+Vector3 renumbered(const PreparedMesh& mesh, int32_t surface_triangle, Vector3 barycentric) {
+  if (surface_triangle >= 0 && !mesh.flipped.empty() && mesh.flipped[surface_triangle])
+    std::swap(barycentric[1], barycentric[2]);
+  return barycentric;
 }
 
 }  // namespace
 
+int64_t degenerate_triangles(const PreparedMesh& mesh) {
+  return mesh.source.triangle_count() - mesh.surface.triangle_count() - mesh.invalid_triangles;
+}
+
+int64_t flipped_triangles(const PreparedMesh& mesh) {
+  return std::count(mesh.flipped.begin(), mesh.flipped.end(), 1);
+}
+
 PreparedMesh prepare(TriangleMesh source, const PrepareParams& params) {
-  validate(source);
+  require_triangles(source);
+  Invalid invalid;
+  params.lenient ? void(invalid = replace_invalid(source)) : validate(source);
   PreparedMesh mesh;
   mesh.source = std::move(source);
+  mesh.invalid_triangles = std::count(invalid.triangle.begin(), invalid.triangle.end(), 1);
   std::vector<int32_t> first(mesh.source.vertex_count());
   std::iota(first.begin(), first.end(), 0);
   if (params.weld) first = weld(mesh.source.positions);
   MatrixX3i corners = mesh.source.triangles.unaryExpr([&](int32_t v) { return first[v]; });
-  mesh.source_triangle = kept_triangles(corners, mesh.source.vertex_count(), params.drop_degenerate);
+  mesh.source_triangle =
+      kept_triangles(corners, mesh.source.vertex_count(), params.drop_degenerate, invalid.triangle);
   build_surface(mesh, first, corners);
+  forget(invalid.vertex, mesh);
   if (mesh.surface.vertex_count() < smallest_surface)
     throw Error(Status::mesh_too_small,
                 "the surface has " + std::to_string(mesh.surface.vertex_count()) + " different vertices",
                 "at least " + std::to_string(smallest_surface) + " are needed");
   normalise(mesh);
   const Components components = components_of(mesh.surface);
+  mesh.components = components.count;
   if (params.bridge_components) mesh.bridges = bridge_pairs(mesh.surface, components);
-  warn(mesh, components);
+  if (params.repair_orientation) inspect(mesh);
+  warn(mesh);
   return mesh;
 }
 
 SurfacePoint to_surface(const PreparedMesh& mesh, const SurfacePoint& source_point) {
-  return {mesh.surface_triangle[source_point.triangle], source_point.barycentric};
+  const int32_t triangle = mesh.surface_triangle[source_point.triangle];
+  return {triangle, renumbered(mesh, triangle, source_point.barycentric)};
 }
 
 SurfacePoint to_source(const PreparedMesh& mesh, const SurfacePoint& surface_point) {
-  return {mesh.source_triangle[surface_point.triangle], surface_point.barycentric};
+  return {mesh.source_triangle[surface_point.triangle],
+          renumbered(mesh, surface_point.triangle, surface_point.barycentric)};
 }
 
 SurfacePoint at_vertex(const TriangleMesh& mesh, int32_t vertex) {

@@ -1,11 +1,13 @@
 // From a caller's triangles to the surface that is analysed: welded, cleaned, centred, of unit area, with the
 // maps back to the caller's own vertex and triangle numbers.
 #pragma once
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "mesh/topology.h"
 #include "mesh/triangle_mesh.h"
 
 namespace focal {
@@ -14,10 +16,16 @@ struct PrepareParams {
   bool weld = true;               // merge vertices of exactly equal position
   bool drop_degenerate = true;    // drop triangles with a repeated corner, and repeated triangles
   bool bridge_components = true;  // link the parts of a many-part character (see bridges)
+  // Leave out triangles with a NaN or infinite corner or an index out of range, instead of refusing the mesh.
+  bool lenient = false;
+  // Look at the topology and turn triangles over where they disagree; not needed for what is made of a prepared surface.
+  bool repair_orientation = true;
 };
 
 struct PreparedMesh {
-  TriangleMesh source;   // as the caller gave it, his numbers and units
+  // As the caller gave it, his numbers and units; but what lenient leaves out stands there as triangles 0 0 0 and as
+  // vertices at the origin, so that whoever reads it meets nothing invalid.
+  TriangleMesh source;
   TriangleMesh surface;  // analysed surface: every vertex used by a triangle; centred, area 1
   double scale = 1;      // caller's units per surface unit = sqrt(area of the surface in caller's units)
   Vector3 centre = Vector3::Zero();       // source position = centre + scale * surface position
@@ -25,14 +33,23 @@ struct PreparedMesh {
   std::vector<int32_t> source_vertex;     // per surface vertex: the first source vertex of it
   std::vector<int32_t> surface_triangle;  // per source triangle: its surface triangle, or -1
   std::vector<int32_t> source_triangle;   // per surface triangle: its source triangle
+  std::vector<char>
+      flipped;  // per surface triangle: its corners 1 and 2 are the source's 2 and 1; empty: none is
   // Pairs of surface vertices that link otherwise unconnected parts (operators add an edge for each), so that
   // heat and distances reach eyes, teeth and armour.
   std::vector<std::pair<int32_t, int32_t>> bridges;
+  int32_t components = 1;             // separate parts
+  int64_t invalid_triangles = 0;      // left out by lenient
+  bool is_oriented = true;            // see Orientation; where false, nothing tells left from right
+  std::optional<Topology> topology;   // of the surface; empty where nobody looked
   std::vector<std::string> warnings;  // plain sentences on what was found and done
 };
 
 // Throws invalid_mesh (no triangles, index out of range, NaN or infinite position), mesh_too_small.
 PreparedMesh prepare(TriangleMesh source, const PrepareParams& params = {});
+
+int64_t degenerate_triangles(const PreparedMesh& mesh);  // with a repeated corner, or repeated: left out
+int64_t flipped_triangles(const PreparedMesh& mesh);
 
 // Surface point of the prepared surface for one of the caller's and back; triangle -1 when it was dropped.
 SurfacePoint to_surface(const PreparedMesh& mesh, const SurfacePoint& source_point);

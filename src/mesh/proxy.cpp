@@ -13,6 +13,11 @@ namespace {
 constexpr double worth_it = 1.1;     // a surface hardly larger than the proxy is analysed as it is
 constexpr double search_radius = 2;  // in mean edge lengths of the coarse surface
 
+// Decimation has taken more than triangles: many small parts, or a few triangles that hold all the area.
+bool has_collapsed(const TriangleMesh& coarse, int32_t vertices) {
+  return coarse.vertex_count() < 0.25 * vertices || surface_area(coarse) < 0.5;  // of area 1 before
+}
+
 Vector3 normal_of(const TriangleMesh& mesh, int32_t t) {
   const Vector3 a = mesh.positions.row(mesh.triangles(t, 0)), b = mesh.positions.row(mesh.triangles(t, 1)),
                 c = mesh.positions.row(mesh.triangles(t, 2));
@@ -23,13 +28,15 @@ Vector3 normal_of(const TriangleMesh& mesh, int32_t t) {
 
 Proxy make_proxy(std::shared_ptr<const PreparedMesh> mesh, int32_t vertices, const Execution& execution,
                  bool fills_holes) {
-  const FilledMesh filled = fills_holes ? fill_holes(mesh->surface) : FilledMesh{};
+  const bool may_have_holes = !mesh->topology || mesh->topology->boundary_loops > 0;
+  const FilledMesh filled = fills_holes && may_have_holes ? fill_holes(mesh->surface) : FilledMesh{};
   const TriangleMesh& surface = filled.holes > 0 ? filled.mesh : mesh->surface;
   const bool is_small = vertices == 0 || surface.vertex_count() <= worth_it * vertices;
   if (is_small && filled.holes == 0) return {mesh, mesh};
+  TriangleMesh coarse = is_small ? surface : decimate(surface, vertices, execution);
+  if (!is_small && has_collapsed(coarse, vertices)) return {mesh, mesh};
   return {mesh,
-          std::make_shared<const PreparedMesh>(
-              prepare(is_small ? surface : decimate(surface, vertices, execution))),
+          std::make_shared<const PreparedMesh>(prepare(std::move(coarse), {.repair_orientation = false})),
           filled.holes};
 }
 

@@ -2,57 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 #include <vector>
+
+#include "operators/tufted_cover.h"
 
 namespace focal {
 namespace {
 
+// How much longer two sides of a triangle are than the third, at least, in mean edge lengths: as in the paper; and what no
+// flip may leave, for below it lengths are mostly rounding.
+constexpr double slack_before = 1e-5, slack_after = 1e-12;
 constexpr double tolerance = 1e-10;  // of the sum of cotangents: below, a flip would gain rounding only
-
-// Side 3 t + i is the edge of triangle t opposite to its corner i.
-struct Sides {
-  std::vector<int32_t> twin;  // the same edge seen from the other triangle, or -1
-
-  explicit Sides(const MatrixX3i& triangles) : twin(static_cast<size_t>(triangles.size()), -1) {
-    // Sides by their smaller end, by counting, then the few at each vertex by the larger end.
-    struct Side {
-      int32_t high, side;
-      bool operator<(const Side& other) const {
-        return high != other.high ? high < other.high : side < other.side;
-      }
-    };
-    const auto ends = [&](int32_t s) {
-      return std::minmax(triangles(s / 3, (s % 3 + 1) % 3), triangles(s / 3, (s % 3 + 2) % 3));
-    };
-    const auto count = static_cast<int32_t>(twin.size());
-    std::vector<int32_t> start(count ? triangles.maxCoeff() + 2 : 1, 0);
-    for (int32_t s = 0; s < count; ++s) ++start[ends(s).first + 1];
-    std::partial_sum(start.begin(), start.end(), start.begin());
-    std::vector<int32_t> next(start.begin(), start.end() - 1);
-    std::vector<Side> sides(count);
-    for (int32_t s = 0; s < count; ++s) sides[next[ends(s).first]++] = {ends(s).second, s};
-    for (size_t v = 0; v + 1 < start.size(); ++v) {
-      std::sort(sides.begin() + start[v], sides.begin() + start[v + 1]);
-      for (int32_t e = start[v], end; e < start[v + 1]; e = end) {
-        for (end = e + 1; end < start[v + 1] && sides[end].high == sides[e].high;) ++end;
-        if (end - e == 2) glue(sides[e].side, sides[e + 1].side, triangles);
-      }
-    }
-  }
-
- private:
-  // Triangles that are turned against each other stay apart: what lies between them cannot be laid flat.
-  void glue(int32_t a, int32_t b, const MatrixX3i& triangles) {
-    if (triangles(a / 3, (a % 3 + 1) % 3) != triangles(b / 3, (b % 3 + 2) % 3)) return;
-    twin[a] = b, twin[b] = a;
-  }
-};
 
 class Flipper {
  public:
-  Flipper(IntrinsicTriangulation& surface, Sides sides) : surface_(surface), twin_(std::move(sides.twin)) {}
+  // twin: the side that each is glued to, or -1.
+  Flipper(IntrinsicTriangulation& surface, std::vector<int32_t> twin)
+      : surface_(surface), twin_(std::move(twin)), least_slack_(slack_after * surface.lengths.mean()) {}
 
   void run() {
     const auto count = static_cast<int32_t>(twin_.size());
@@ -77,6 +44,7 @@ class Flipper {
     const double area = std::sqrt(std::max((a + b + c) * (b + c - a) * (a + c - b) * (a + b - c), 0.0)) / 4;
     return (b * b + c * c - a * a) / (4 * std::max(area, 1e-30));
   }
+  static double slack(double a, double b, double c) { return a + b + c - 2 * std::max({a, b, c}); }
   bool is_delaunay(int32_t side) const { return cotangent(side) + cotangent(twin_[side]) > -tolerance; }
 
   // The triangles (p, a, b) and (q, b, a) on either side of the edge ab become (p, a, q) and (q, b, p).
@@ -91,11 +59,11 @@ class Flipper {
     const auto [px, py] = place(length(pa), length(bp));
     const auto [qx, qy] = place(length(aq), length(qb));
     const double crossing = std::hypot(px - qx, py + qy);
-    if (!(crossing > 0)) return;
+    const double l_bp = length(bp), l_pa = length(pa), l_aq = length(aq), l_qb = length(qb);
+    if (!(slack(l_pa, l_aq, crossing) > least_slack_ && slack(l_bp, l_qb, crossing) > least_slack_)) return;
     const auto& corner = surface_.triangles;
     const int32_t p = corner(t, side % 3), q = corner(u, other % 3);
     const int32_t a = corner(t, bp % 3), b = corner(t, pa % 3);
-    const double l_bp = length(bp), l_pa = length(pa), l_aq = length(aq), l_qb = length(qb);
     const int32_t outside[4] = {twin_[aq], twin_[pa], twin_[bp], twin_[qb]};
     const int32_t moved_from[4] = {aq, pa, bp, qb};
     // New sides: of t = (p, a, q): opposite to p: aq; to a: qp; to q: pa. Of u = (q, b, p): bp, pq, qb.
@@ -124,6 +92,7 @@ class Flipper {
 
   IntrinsicTriangulation& surface_;
   std::vector<int32_t> twin_, queue_;
+  double least_slack_;
   std::vector<char> queued_;
 };
 
@@ -139,9 +108,29 @@ IntrinsicTriangulation intrinsic_copy(const TriangleMesh& mesh) {
   return result;
 }
 
+void mollify(MatrixX3& lengths, double share) {
+  const double slack = share * lengths.mean();
+  double missing = 0;
+  for (Eigen::Index t = 0; t < lengths.rows(); ++t)
+    missing = std::max(missing, slack + 2 * lengths.row(t).maxCoeff() - lengths.row(t).sum());
+  lengths.array() += missing;
+}
+
 IntrinsicTriangulation intrinsic_delaunay(const TriangleMesh& mesh) {
   IntrinsicTriangulation result = intrinsic_copy(mesh);
-  Flipper(result, Sides(mesh.triangles)).run();
+  mollify(result.lengths, slack_before);
+  const EdgeSides edges = edge_sides(mesh);
+  auto twin = manifold_gluing(mesh.triangles, edges);
+  if (!twin) {
+    TuftedCover cover = tufted_cover(mesh.triangles, edges);
+    const MatrixX3 above = result.lengths;
+    result.triangles = std::move(cover.triangles);
+    result.lengths.resize(2 * above.rows(), 3);
+    result.lengths << above, above.col(0), above.col(2), above.col(1);
+    result.layers = 2;
+    twin = std::move(cover.twin);
+  }
+  Flipper(result, std::move(*twin)).run();
   return result;
 }
 

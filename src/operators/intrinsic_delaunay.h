@@ -10,11 +10,17 @@ namespace focal {
 struct IntrinsicTriangulation {
   MatrixX3i triangles;  // m x 3 vertices
   MatrixX3 lengths;     // m x 3: of the edge opposite to corner i
+  int32_t layers = 1;   // 2: of the tufted cover, which covers the surface twice
   int64_t flips = 0;
 };
 
-// Edges at a boundary, or shared by more than two triangles, stay.
+// Edges at a boundary stay. Where triangles do not make a surface (see manifold_gluing), of its tufted cover, which has no
+// boundary. Lengths are mollified first.
 IntrinsicTriangulation intrinsic_delaunay(const TriangleMesh& mesh);
+
+// Adds to all lengths (m x 3, opposite to the corners) what the flattest triangle lacks for any two sides to be longer than
+// the third by this share of the mean edge; nothing where none lacks it (N. Sharp, K. Crane, "A Laplacian for Nonmanifold Triangle Meshes", 2020).
+void mollify(MatrixX3& lengths, double share);
 
 // As given, without a flip.
 IntrinsicTriangulation intrinsic_copy(const TriangleMesh& mesh);

@@ -34,6 +34,9 @@ TriangleMeasure measure_corners(const TriangleMesh& mesh, int32_t t, double smal
   return result;
 }
 
+constexpr double least_mass_by_stiffness =
+    1e-10;  // mass, of area, over the diagonal of L: far below what shapes have
+
 struct WeightedEdge {
   int32_t a, b;
   double weight;
@@ -78,7 +81,9 @@ SparseMatrix laplacian_of(const std::vector<WeightedEdge>& edges, int32_t n) {
 Operators make_operators(const TriangleMesh& mesh, std::span<const std::pair<int32_t, int32_t>> bridges,
                          bool delaunay) {
   Operators result;
-  const int32_t n = mesh.vertex_count(), m = mesh.triangle_count();
+  const IntrinsicTriangulation surface = delaunay ? intrinsic_delaunay(mesh) : intrinsic_copy(mesh);
+  result.triangles = surface.triangles;
+  const auto n = mesh.vertex_count(), m = static_cast<int32_t>(surface.triangles.rows());
   result.half_cotangent.resize(m, 3);
   result.face_area.resize(m);
   result.area = surface_area(mesh);
@@ -86,12 +91,11 @@ Operators make_operators(const TriangleMesh& mesh, std::span<const std::pair<int
   result.mass = Vector::Zero(n);
   std::vector<WeightedEdge> edges;
   edges.reserve(3 * static_cast<size_t>(m) + bridges.size());
-  const IntrinsicTriangulation surface = delaunay ? intrinsic_delaunay(mesh) : intrinsic_copy(mesh);
-  result.triangles = surface.triangles;
   for (int32_t t = 0; t < m; ++t) {
     // The floor keeps slivers finite; it is far below the area of any triangle that matters.
-    const TriangleMeasure triangle = delaunay ? measure(surface.lengths.row(t), 5e-13 * result.area)
-                                              : measure_corners(mesh, t, 5e-13 * result.area);
+    TriangleMeasure triangle = delaunay ? measure(surface.lengths.row(t), 5e-13 * result.area)
+                                        : measure_corners(mesh, t, 5e-13 * result.area);
+    triangle.area /= surface.layers, triangle.half_cotangent /= surface.layers;
     result.face_area[t] = triangle.area;
     result.half_cotangent.row(t) = triangle.half_cotangent;
     for (int i = 0; i < 3; ++i) {
@@ -103,6 +107,8 @@ Operators make_operators(const TriangleMesh& mesh, std::span<const std::pair<int
   for (const auto& [a, b] : bridges) edges.push_back({a, b, 1});
   result.mass = result.mass.cwiseMax(1e-9 * result.area / n);  // a vertex of slivers only still has some mass
   result.L = laplacian_of(edges, n);
+  // Nor is any mass so small beside its stiffness that the eigenvalues span more than double precision can hold.
+  result.mass = result.mass.cwiseMax(least_mass_by_stiffness * result.area * result.L.diagonal());
   return result;
 }
 

@@ -10,9 +10,11 @@
 namespace focal {
 
 struct Operators {
-  MatrixX3i triangles;  // m x 3: those of the mesh, or of its intrinsic Delaunay triangulation
-  SparseMatrix L;       // n x n cotangent Laplacian, positive semi-definite, rows sum to 0; no unit
-  Vector mass;          // n, lumped (a third of the area round each vertex), > 0; unit area
+  // m x 3: those of the mesh, or of its intrinsic Delaunay triangulation; two for each where that is a tufted cover, and
+  // then cotangents and areas are halved.
+  MatrixX3i triangles;
+  SparseMatrix L;  // n x n cotangent Laplacian, positive semi-definite, rows sum to 0; no unit
+  Vector mass;     // n, lumped (a third of the area round each vertex), > 0; unit area
   Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>
       half_cotangent;  // m x 3: half the cotangent at corner i
   Vector face_area;    // m
@@ -20,8 +22,8 @@ struct Operators {
 };
 
 // bridges: pairs of vertices joined by an edge of the Laplacian, so that separate parts are connected.
-// delaunay: over the intrinsic Delaunay triangulation, which thin and obtuse triangles do not harm; else of the triangles
-// as they are.
+// delaunay: over the intrinsic Delaunay triangulation, which thin and obtuse triangles do not harm, nor edges of more than
+// two; no weight is negative. Else of the triangles as they are.
 Operators make_operators(const TriangleMesh& mesh, std::span<const std::pair<int32_t, int32_t>> bridges = {},
                          bool delaunay = false);
 

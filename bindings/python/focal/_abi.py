@@ -135,6 +135,8 @@ class focal_mesh_params(Structure):
         ("max_file_bytes", c_uint64),
         ("pose_animation", c_char_p),
         ("pose_time", c_double),
+        ("lenient", c_int32),
+        ("reserved", c_int32),
     ]
 
 
@@ -161,6 +163,15 @@ class focal_mesh_info(Structure):
         ("surface_area", c_double),
         ("load_seconds", c_double),
         ("repair_seconds", c_double),
+        ("invalid_triangles", c_uint64),
+        ("degenerate_triangles", c_uint64),
+        ("flipped_triangles", c_uint64),
+        ("nonmanifold_edges", c_uint64),
+        ("nonmanifold_vertices", c_uint64),
+        ("boundary_loops", c_uint64),
+        ("component_count", c_uint64),
+        ("is_oriented", c_int32),
+        ("reserved", c_uint32),
     ]
 
 

@@ -27,6 +27,8 @@ class Mesh(Handle):
     weld               merge vertices of exactly equal position. Default True
     drop_degenerate    drop triangles with a repeated corner and repeated triangles. Default True
     bridge_components  link the parts of a many-part character for the analysis. Default True
+    lenient            leave out triangles with a NaN or infinite corner or a vertex number out of range, with a
+                       warning, instead of raising an error. Default False
     max_vertices, max_triangles  larger meshes are refused. Defaults 5,000,000 and 10,000,000
 
     Blocks of numbers may be NumPy arrays, anything NumPy takes, buffers such as array.array, or sequences; flat ones
@@ -39,8 +41,9 @@ class Mesh(Handle):
     _kind = "mesh"
 
     def __init__(self, vertices: Any, faces: Any, *, weld: bool | None = None, drop_degenerate: bool | None = None,
-                 bridge_components: bool | None = None, max_vertices: int | None = None,
-                 max_triangles: int | None = None, context: Context | None = None) -> None:
+                 bridge_components: bool | None = None, lenient: bool | None = None,
+                 max_vertices: int | None = None, max_triangles: int | None = None,
+                 context: Context | None = None) -> None:
         positions = block_of(vertices, "vertices", "f", 3)
         indices = block_of(faces, "faces", "I", 3)
         running = context_or_default(context)
@@ -48,13 +51,15 @@ class Mesh(Handle):
         desc.positions, desc.vertex_count = positions.pointer, positions.rows
         desc.indices, desc.index_count = indices.pointer, 3 * indices.rows
         params = fill(new(_abi.focal_mesh_params), weld=weld, drop_degenerate=drop_degenerate,
-                      bridge_components=bridge_components, max_vertices=max_vertices, max_triangles=max_triangles)
+                      bridge_components=bridge_components, lenient=lenient, max_vertices=max_vertices,
+                      max_triangles=max_triangles)
         self._take(create("focal_mesh_create", _abi.focal_mesh, running._handle, ctypes.byref(desc),
                           ctypes.byref(params)), running)
 
     @classmethod
     def load(cls, path: str | os.PathLike[str], *, weld: bool | None = None, drop_degenerate: bool | None = None,
-             bridge_components: bool | None = None, allow_external_files: bool | None = None,
+             bridge_components: bool | None = None, lenient: bool | None = None,
+             allow_external_files: bool | None = None,
              keep_source_file: bool | None = None, max_vertices: int | None = None,
              max_triangles: int | None = None, max_nodes: int | None = None, max_json_bytes: int | None = None,
              max_file_bytes: int | None = None, pose_animation: str | None = None, pose_time: float | None = None,
@@ -70,7 +75,7 @@ class Mesh(Handle):
         Error: FILE_NOT_FOUND, IO, INVALID_FILE, UNSUPPORTED, and those of Mesh.
         """
         params = fill(new(_abi.focal_mesh_params), weld=weld, drop_degenerate=drop_degenerate,
-                      bridge_components=bridge_components, allow_external_files=allow_external_files,
+                      bridge_components=bridge_components, lenient=lenient, allow_external_files=allow_external_files,
                       keep_source_file=keep_source_file, max_vertices=max_vertices, max_triangles=max_triangles,
                       max_nodes=max_nodes, max_json_bytes=max_json_bytes, max_file_bytes=max_file_bytes,
                       pose_animation=pose_animation, pose_time=pose_time)
@@ -80,14 +85,15 @@ class Mesh(Handle):
 
     @classmethod
     def from_bytes(cls, data: Any, *, weld: bool | None = None, drop_degenerate: bool | None = None,
-                   bridge_components: bool | None = None, keep_source_file: bool | None = None,
+                   bridge_components: bool | None = None, lenient: bool | None = None,
+                   keep_source_file: bool | None = None,
                    max_vertices: int | None = None, max_triangles: int | None = None, max_nodes: int | None = None,
                    max_json_bytes: int | None = None, max_file_bytes: int | None = None,
                    pose_animation: str | None = None, pose_time: float | None = None,
                    context: Context | None = None) -> Mesh:
         """The same from the bytes of a file (bytes-like); external files are refused."""
         params = fill(new(_abi.focal_mesh_params), weld=weld, drop_degenerate=drop_degenerate,
-                      bridge_components=bridge_components, keep_source_file=keep_source_file,
+                      bridge_components=bridge_components, lenient=lenient, keep_source_file=keep_source_file,
                       max_vertices=max_vertices, max_triangles=max_triangles, max_nodes=max_nodes,
                       max_json_bytes=max_json_bytes, max_file_bytes=max_file_bytes, pose_animation=pose_animation,
                       pose_time=pose_time)
@@ -98,7 +104,9 @@ class Mesh(Handle):
     @property
     def info(self) -> dict[str, Any]:
         """All that the library tells in numbers: counts of the mesh and of the surface that is analysed
-        (surface_vertex_count, ...), mean_edge_length, surface_area, load_seconds, repair_seconds."""
+        (surface_vertex_count, ...), mean_edge_length, surface_area, load_seconds, repair_seconds, and what was found and done: invalid_triangles,
+        degenerate_triangles, flipped_triangles, nonmanifold_edges, nonmanifold_vertices, boundary_loops,
+        component_count, is_oriented."""
         info = new(_abi.focal_mesh_info)
         call("focal_mesh_get_info", self._handle, ctypes.byref(info))
         return as_dict(info)
