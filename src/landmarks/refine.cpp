@@ -59,7 +59,8 @@ SurfacePoint mean_place(const SurfaceAnalysis& analysis, const MatrixX3& normals
   double total = 0;
   for (size_t i = 0; i < region.vertex.size(); ++i) {
     const int32_t v = region.vertex[i];
-    if (v != best && normals.row(v).dot(side) <= 0) continue;  // a side may face nowhere, as where sheets meet
+    if (v != best && normals.row(v).dot(side) <= 0)
+      continue;  // a side may face nowhere, as where sheets meet
     const double weight = analysis.operators.mass[v] * std::exp((lowest - region.cost[i]) / temperature);
     sum += weight * mesh.positions.row(v), total += weight;
   }

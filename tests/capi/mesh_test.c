@@ -130,12 +130,91 @@ static void check_gltf(shape* body) {
   free(glb);
 }
 
+static focal_mesh_info info_of(const focal_mesh* mesh) {
+  focal_mesh_info info;
+  CHECK_OK(focal_mesh_info_init(&info, sizeof info));
+  CHECK_OK(focal_mesh_get_info(mesh, &info));
+  return info;
+}
+
+static void check_flipped(shape* body) {
+  focal_mesh_desc desc = shape_desc(body);
+  focal_mesh* mesh = NULL;
+  focal_surface_point point = {4, {0.5f, 0.25f, 0.25f}};
+  float before[3], after[3];
+  CHECK_OK(focal_mesh_create(context, &desc, NULL, &mesh));
+  const focal_mesh_info sound = info_of(mesh);
+  CHECK(sound.flipped_triangles == 0 && sound.nonmanifold_edges == 0 && sound.nonmanifold_vertices == 0);
+  CHECK(sound.boundary_loops == 0 && sound.degenerate_triangles == 0 && sound.invalid_triangles == 0);
+  CHECK(sound.component_count == 1 && sound.is_oriented == 1 && sound.reserved == 0);
+  focal_mesh_destroy(mesh);
+  point.barycentric[1] = 0.4f, point.barycentric[2] = 0.1f;
+  for (int i = 0; i < 3; ++i)
+    before[i] = 0.5f * body->positions[3 * body->indices[12] + (uint32_t)i] +
+                0.1f * body->positions[3 * body->indices[13] + (uint32_t)i] +
+                0.4f * body->positions[3 * body->indices[14] + (uint32_t)i];
+  const uint32_t swapped = body->indices[13];
+  body->indices[13] = body->indices[14], body->indices[14] = swapped;
+  CHECK_OK(focal_mesh_create(context, &desc, NULL, &mesh));
+  const focal_mesh_info info = info_of(mesh);
+  CHECK(info.flipped_triangles == 1 && info.is_oriented == 1 && info.warning_count == 1);
+  CHECK(memcmp(focal_mesh_triangles(mesh), body->indices, body->index_count * 4) == 0);
+  CHECK_OK(focal_mesh_position_of(mesh, &point, after)); /* in the caller's order of the corners */
+  for (int i = 0; i < 3; ++i) CHECK(fabsf(before[i] - after[i]) < 1e-6f);
+  focal_mesh_destroy(mesh);
+  body->indices[14] = body->indices[13], body->indices[13] = swapped;
+}
+
+/* One bad vertex and two bad triangles, from arrays and from a file. */
+static void check_lenient(shape* body) {
+  focal_mesh_params params;
+  focal_mesh* mesh = NULL;
+  focal_surface_point point;
+  uint64_t with_vertex = 2; /* the triangles to be left out */
+  for (uint64_t i = 6; i < body->index_count; ++i) with_vertex += body->indices[i] == 40;
+  const float kept = body->positions[121];
+  const uint32_t first = body->indices[0], second = body->indices[5];
+  body->positions[121] = INFINITY, body->indices[0] = UINT32_MAX,
+  body->indices[5] = (uint32_t)body->vertex_count;
+  CHECK_OK(focal_mesh_params_init(&params, sizeof params));
+  CHECK(params.lenient == 0);
+  size_t size = 0;
+  unsigned char* glb = shape_glb(body, &size);
+  const focal_mesh_desc desc = shape_desc(body);
+  CHECK_REFUSED(create(&desc), FOCAL_ERROR_INVALID_MESH, "names vertex");
+  CHECK_REFUSED(load_memory(glb, size), FOCAL_ERROR_INVALID_MESH, "");
+  params.lenient = 2;
+  CHECK_REFUSED(focal_mesh_create(context, &desc, &params, &mesh), FOCAL_ERROR_INVALID_ARGUMENT, "lenient");
+  params.lenient = 1;
+  for (int from_file = 0; from_file < 2; ++from_file) {
+    CHECK_OK(from_file ? focal_mesh_load_gltf_memory(context, glb, size, &params, &mesh)
+                       : focal_mesh_create(context, &desc, &params, &mesh));
+    const focal_mesh_info info = info_of(mesh);
+    CHECK(info.invalid_triangles == with_vertex && info.degenerate_triangles == 0);
+    CHECK(info.vertex_count == body->vertex_count && info.triangle_count * 3 == body->index_count);
+    CHECK(info.surface_triangle_count == info.triangle_count - with_vertex && info.boundary_loops == 2);
+    CHECK(strstr(focal_mesh_warning(mesh, 0), "left out") != NULL);
+    const uint32_t* triangles = focal_mesh_triangles(mesh);
+    CHECK(triangles[0] == 0 && triangles[1] == 0 && triangles[2] == 0);
+    CHECK(memcmp(triangles + 6, body->indices + 6, 4 * sizeof *triangles) == 0);
+    CHECK(focal_mesh_positions(mesh)[121] == 0);
+    CHECK_REFUSED(focal_mesh_point_at_vertex(mesh, 40, &point), FOCAL_ERROR_INVALID_LANDMARK,
+                  "no triangle uses");
+    CHECK_OK(focal_mesh_point_at_vertex(mesh, body->marks[1], &point));
+    focal_mesh_destroy(mesh);
+  }
+  free(glb);
+  body->positions[121] = kept, body->indices[0] = first, body->indices[5] = second;
+}
+
 int main(void) {
   shape body = shape_create(8, 0);
   CHECK_OK(focal_context_create(NULL, &context));
   check_good(&body);
   check_bad_arrays(&body);
   check_stride(&body);
+  check_flipped(&body);
+  check_lenient(&body);
   check_gltf(&body);
   shape_destroy(&body);
   focal_context_destroy(context);

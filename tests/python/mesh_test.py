@@ -32,6 +32,17 @@ class Arrays(Case):
         two = memoryview(array.array("f", flat_vertices)).cast("B").cast("f", (len(self.vertices), 3))
         self.same(two, [tuple(face) for face in self.faces])
 
+    def test_leniently_what_is_invalid_is_left_out_and_told(self):
+        vertices, faces = [list(vertex) for vertex in self.vertices], [list(face) for face in self.faces]
+        vertices[30][1] = float("nan")
+        faces[0][2] = len(vertices)
+        self.refused(Status.INVALID_MESH, "", focal.Mesh, vertices, faces)
+        made = focal.Mesh(vertices, faces, lenient=True)
+        expected = 1 + sum(30 in face for face in faces[1:])
+        self.assertEqual(made.info["invalid_triangles"], expected)
+        self.assertEqual(made.info["is_oriented"], 1)
+        self.assertEqual(made.info["surface_triangle_count"], len(faces) - expected)
+
     @unittest.skipIf(numpy is None, "no NumPy")
     def test_arrays_of_every_layout(self):
         vertices, faces = numpy.array(self.vertices), numpy.array(self.faces)
