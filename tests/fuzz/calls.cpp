@@ -231,11 +231,11 @@ void fill_set(World& world) {
 }
 
 void train(World& world) {
-  if (world.trainings++) return;  // the slow one
+  if (world.trainings++ || world.choose.below(4)) return;  // the slow one
   focal_model* model = nullptr;
   focal_train_params params;
   told(focal_train_params_init(&params, sizeof params));
-  if (world.choose.below(4) == 0)
+  if (world.choose.below(16) == 0)
     told(focal_train_params_set_preset(&params, static_cast<focal_preset>(world.choose.below(3))));
   params.learn_confidence = world.choose.below(8) == 0,
   params.tree_count = static_cast<int32_t>(world.choose.below(4));
@@ -273,7 +273,7 @@ void load_or_save(World& world) {
 }
 
 void detect(World& world) {
-  if (world.detections_made++ > 2) return;
+  if (world.detections_made++ > 1) return;
   focal_detection* detection = nullptr;
   focal_analysis* analysis = nullptr;
   focal_detect_params params;

@@ -10,7 +10,7 @@ source=$PWD/tests/fuzz
 fuzz_one() {
   folder=$build/tests/fuzz
   mkdir -p "$folder/found/$1" "$folder/crashes"
-  "$folder/focal_fuzz_$1" -max_total_time="$seconds" -max_len=16384 -timeout=20 -rss_limit_mb=4096 -print_final_stats=1 \
+  "$folder/focal_fuzz_$1" -max_total_time="$seconds" -max_len=16384 -timeout=120 -rss_limit_mb=4096 -print_final_stats=1 \
     -artifact_prefix="$folder/crashes/$1-" "$folder/found/$1" "$source/seeds/$1" > "$folder/$1.log" 2>&1 || true
   executions=$(sed -n 's/^stat::number_of_executed_units: *//p' "$folder/$1.log")
   crashes=$(find "$folder/crashes" -name "$1-*" | wc -l)
