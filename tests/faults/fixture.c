@@ -9,7 +9,7 @@
 #include "rigged_shape.h"
 #include "shapes.h"
 
-enum { RINGS = 7, MESHES = 2 };
+enum { MESHES = 2 };
 
 void (*fixture_pause)(void);
 void (*fixture_resume)(void);
@@ -49,19 +49,19 @@ focal_train_params tiny_training(focal_preset preset) {
   INSIST(focal_train_params_set_preset(&params, preset));
   params.eigenpair_count = 12, params.tree_count = 1, params.min_leaf_samples = 20;
   params.max_samples_per_shape = 60, params.rigged_shapes = 2;
+  if (preset == FOCAL_PRESET_DEFAULT) params.proxy_vertices = 80; /* of 100: decimated, but little */
   params.learn_confidence = 0;
   return params;
 }
 
-static void make_meshes(fixture* f) {
-  shape body = shape_create(RINGS, 0.05f);
-  f->glb = shape_glb(&body, &f->glb_size);
-  shape_destroy(&body);
-  f->rigged_glb = rigged_glb(RINGS, 0, &f->rigged_size);
+static void make_meshes(fixture* f, int rings) {
+  f->body = shape_create(rings, 0.05f);
+  f->glb = shape_glb(&f->body, &f->glb_size);
+  f->rigged_glb = rigged_glb(rings, 0, &f->rigged_size);
   INSIST(focal_mesh_load_gltf_memory(f->context, f->glb, f->glb_size, NULL, &f->mesh));
   INSIST(focal_mesh_load_gltf_memory(f->context, f->rigged_glb, f->rigged_size, NULL, &f->rigged));
-  f->other = shape_mesh(f->context, RINGS, 0.02f);
-  f->set = shape_training_set(f->context, RINGS, MESHES);
+  f->other = shape_mesh(f->context, rings, 0.02f);
+  f->set = shape_training_set(f->context, rings, MESHES);
   INSIST(focal_training_set_create(f->context, NULL, 0, &f->rigs));
   INSIST(focal_training_set_add_rig(f->rigs, f->rigged));
 }
@@ -80,14 +80,14 @@ static void make_models(fixture* f) {
   INSIST(focal_model_detect(f->rig_model, f->rigged, NULL, NULL, &f->rig_detection));
 }
 
-void fixture_create(fixture* f, const focal_context_params* params) {
+void fixture_create(fixture* f, int rings, const focal_context_params* params) {
   *f = (fixture){0};
   /* In memory where there is such a place: a flush to a disk takes longer than most scenarios. */
   const char* const temporary = access("/dev/shm", W_OK) == 0 ? "/dev/shm" : "/tmp";
   snprintf(f->folder, sizeof f->folder, "%s/focal-faults-XXXXXX", temporary);
   if (!mkdtemp(f->folder)) exit(2);
   INSIST(focal_context_create(params, &f->context));
-  make_meshes(f);
+  make_meshes(f, rings);
   make_models(f);
   INSIST(focal_model_save(f->model, fixture_path(f, "model")));
   INSIST(focal_analysis_save(f->analysis, fixture_path(f, "analysis")));
@@ -102,6 +102,7 @@ void fixture_destroy(fixture* f) {
   focal_training_set_destroy(f->set), focal_training_set_destroy(f->rigs);
   focal_mesh_destroy(f->mesh), focal_mesh_destroy(f->other), focal_mesh_destroy(f->rigged);
   focal_context_destroy(f->context);
+  shape_destroy(&f->body);
   free(f->glb), free(f->rigged_glb);
   static const char* const files[] = {"model", "analysis", "out.focal", "out.analysis", "out.glb"};
   for (size_t i = 0; i < sizeof files / sizeof *files; ++i) unlink(fixture_path(f, files[i]));

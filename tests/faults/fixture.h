@@ -5,9 +5,12 @@
 #include <focal/focal.h>
 #include <stddef.h>
 
+#include "shapes.h"
+
 typedef struct fixture {
   char folder[256]; /* for files; its own */
   focal_context* context;
+  shape body;
   focal_mesh *mesh, *other, *rigged; /* rigged: from a .glb with a skin and an animation */
   focal_training_set *set, *rigs;
   focal_model *model, *paper, *rig_model;
@@ -17,7 +20,8 @@ typedef struct fixture {
   size_t glb_size, rigged_size;
 } fixture;
 
-void fixture_create(fixture* f, const focal_context_params* params);
+/* rings: 7 for meshes of 100 vertices; their number grows with its square. */
+void fixture_create(fixture* f, int rings, const focal_context_params* params);
 void fixture_destroy(fixture* f);
 
 /* A test's own work inside a call that is watched; both may be NULL. */

@@ -80,7 +80,9 @@ static tally fail_each(const scenario* what, const fixture* f, long most, long o
   for (at_ever = 0; at_ever <= 1; ++at_ever)
     for (long i = 0; i < tried; ++i) {
       if (only > 0 && (i > 0 || at_ever)) continue;
-      at_allocation = only > 0 ? only : tried > 1 ? 1 + (long)((double)i * (double)(count - 1) / (double)(tried - 1)) : 1;
+      at_allocation = only > 0    ? only
+                      : tried > 1 ? 1 + (long)((double)i * (double)(count - 1) / (double)(tried - 1))
+                                  : 1;
       fail_one(what, f, expected, tried <= 1000 || i % 10 == 0, &sum);
     }
   printf(
@@ -110,7 +112,7 @@ int main(int argc, char** argv) {
   }
   signal(SIGABRT, tell_where), signal(SIGSEGV, tell_where), signal(SIGFPE, tell_where);
   fixture f;
-  fixture_create(&f, &params);
+  fixture_create(&f, 7, &params);
   fixture_pause = allocations_pause, fixture_resume = allocations_resume;
   tally all = {0};
   size_t used = 0;

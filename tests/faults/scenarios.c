@@ -2,8 +2,6 @@
 #include <string.h>
 
 #include "fixture.h"
-#include "rigged_shape.h"
-#include "shapes.h"
 
 focal_train_params tiny_training(focal_preset preset);
 
@@ -79,16 +77,10 @@ static focal_status run_context(const fixture* f, uint64_t* digest) {
 
 static focal_status run_mesh_create(const fixture* f, uint64_t* digest) {
   focal_mesh* mesh = NULL;
-  own_work_begins();
-  shape body = shape_create(7, 0.1f);
-  const focal_mesh_desc desc = shape_desc(&body);
-  own_work_ends();
-  const focal_status status = focal_mesh_create(f->context, &desc, NULL, &mesh);
-  own_work_begins();
-  shape_destroy(&body);
-  own_work_ends();
-  if (status == FOCAL_OK) add_mesh(digest, mesh);
-  return status;
+  const focal_mesh_desc desc = shape_desc(&f->body);
+  TRY(focal_mesh_create(f->context, &desc, NULL, &mesh));
+  add_mesh(digest, mesh);
+  return FOCAL_OK;
 }
 
 static focal_status run_gltf(const fixture* f, uint64_t* digest) {
@@ -241,7 +233,7 @@ static focal_status add_maps(const fixture* f, uint64_t* digest, const focal_det
 }
 
 static focal_status run_maps(const fixture* f, uint64_t* digest) {
-  float values[4096];
+  static float values[8192];
   focal_detection* const detection = fresh(f->model, f->analysis);
   focal_detection_info info;
   focal_detection_info_init(&info, sizeof info);
@@ -252,10 +244,10 @@ static focal_status run_maps(const fixture* f, uint64_t* digest) {
 }
 
 static focal_status add_points(uint64_t* digest, const focal_correspondence* map, uint64_t vertices) {
-  static focal_surface_point points[4096];
+  static focal_surface_point points[8192];
   TRY(focal_correspondence_points(map, vertices, points));
   *digest = digest_bytes(*digest, points, (size_t)vertices * sizeof *points);
-  static float ones[4096], carried[4096];
+  static float ones[8192], carried[8192];
   TRY(focal_correspondence_carry(map, vertices, ones, vertices, carried));
   *digest = digest_bytes(*digest, carried, (size_t)vertices * sizeof *carried);
   return FOCAL_OK;
@@ -273,7 +265,7 @@ static focal_status run_correspondence(const fixture* f, uint64_t* digest) {
 }
 
 static focal_status run_segment(const fixture* f, uint64_t* digest) {
-  static int32_t labels[8192];
+  static int32_t labels[16384];
   focal_detection_info info;
   TRY(focal_detection_info_init(&info, sizeof info));
   TRY(focal_detection_get_info(f->rig_detection, &info));
