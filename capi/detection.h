@@ -1,14 +1,13 @@
 // focal_detection: landmarks found on one mesh.
 #pragma once
 #include <memory>
-#include <mutex>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "handles.h"
 #include "landmarks/detect.h"
 #include "landmarks/regions.h"
+#include "lazy.h"
 #include "mesh.h"
 #include "model.h"
 
@@ -30,10 +29,8 @@ struct DetectionObject {
   const DistanceFields& distance_fields(const Execution& execution) const;
 
  private:
-  mutable std::once_flag votes_once_;
-  mutable RowMatrixf votes_;
-  mutable std::once_flag distances_once_;
-  mutable std::optional<DistanceFields> distances_;
+  Lazy<RowMatrixf> votes_;
+  Lazy<DistanceFields> distances_;
 };
 
 // The caller's own glTF, or a plain .glb where there is none.

@@ -52,6 +52,19 @@ void check_suffix(const std::filesystem::path& path, bool binary) {
                 std::string("choose a path that ends in ") + wanted);
 }
 
+// Landmarks x vertices of the proxy, as values of the full surface; the largest of each is 1.
+RowMatrixf carried_over(const RowMatrixf& votes, const Proxy& proxy) {
+  const auto places = coarse_place_of_vertices(proxy);
+  RowMatrixf result = RowMatrixf::Zero(votes.rows(), static_cast<Eigen::Index>(places.size()));
+  for (size_t v = 0; v < places.size(); ++v)
+    for (int i = 0; i < 3; ++i)
+      result.col(v) += static_cast<float>(places[v].barycentric[i]) *
+                       votes.col(proxy.coarse->surface.triangles(places[v].triangle, i));
+  for (Eigen::Index l = 0; l < result.rows(); ++l)
+    result.row(l) /= std::max(result.row(l).maxCoeff(), 1e-30f);
+  return result;
+}
+
 }  // namespace
 
 SourceFile source_file(const MeshObject& mesh, const std::filesystem::path& path) {
@@ -73,18 +86,7 @@ const RowMatrixf& DetectionObject::full_votes() const {
     throw Error(Status::unsupported, "the detection has no vote maps",
                 "detect with focal_detect_params.keep_votes 1");
   if (detection.proxy.is_full()) return detection.votes;
-  std::call_once(votes_once_, [&] {
-    const auto places = coarse_place_of_vertices(detection.proxy);
-    votes_ = RowMatrixf::Zero(detection.votes.rows(), static_cast<Eigen::Index>(places.size()));
-    for (size_t v = 0; v < places.size(); ++v)
-      for (int i = 0; i < 3; ++i)
-        votes_.col(v) +=
-            static_cast<float>(places[v].barycentric[i]) *
-            detection.votes.col(detection.proxy.coarse->surface.triangles(places[v].triangle, i));
-    for (Eigen::Index l = 0; l < votes_.rows(); ++l)
-      votes_.row(l) /= std::max(votes_.row(l).maxCoeff(), 1e-30f);
-  });
-  return votes_;
+  return votes_.get([&] { return carried_over(detection.votes, detection.proxy); });
 }
 
 }  // namespace focal

@@ -50,8 +50,7 @@ focal_train_params abi_params_of(const ModelObject& object) {
 }  // namespace
 
 uint64_t ModelObject::file_bytes() const {
-  std::call_once(file_once_, [&] { file_bytes_ = serialise(*model).size(); });
-  return file_bytes_;
+  return file_bytes_.get([&] { return serialise(*model).size(); });
 }
 
 template <>

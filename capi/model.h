@@ -1,11 +1,11 @@
 // focal_model: what training makes and detection uses.
 #pragma once
 #include <memory>
-#include <mutex>
 
 #include "context.h"
 #include "handles.h"
 #include "landmarks/landmark_model.h"
+#include "lazy.h"
 
 namespace focal {
 
@@ -20,8 +20,7 @@ struct ModelObject {
   uint64_t file_bytes() const;  // of the model as a file; written once to find out
 
  private:
-  mutable std::once_flag file_once_;
-  mutable uint64_t file_bytes_ = 0;
+  Lazy<uint64_t> file_bytes_;
 };
 
 }  // namespace focal

@@ -1,6 +1,5 @@
 // Regions round the landmarks of a detection.
 #include <algorithm>
-#include <mutex>
 #include <string>
 
 #include "arguments.h"
@@ -34,8 +33,7 @@ std::vector<float> distances_of(const DetectionObject& object, uint32_t index, u
 }  // namespace
 
 const DistanceFields& DetectionObject::distance_fields(const Execution& execution) const {
-  std::call_once(distances_once_, [&] { distances_.emplace(detection.proxy, execution); });
-  return *distances_;
+  return distances_.get([&] { return DistanceFields(detection.proxy, execution); });
 }
 
 }  // namespace focal

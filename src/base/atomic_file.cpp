@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <new>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -39,9 +40,17 @@ class FileDescriptor {
   int fd_;
 };
 
+// Once more when a signal came between.
+template <class Call>
+auto uninterrupted(Call&& call) {
+  for (;;)
+    if (const auto result = call(); result >= 0 || errno != EINTR) return result;
+}
+
 std::string quoted(const fs::path& path) { return "'" + path.string() + "'"; }
 
 [[noreturn]] void fail(const std::string& doing, const fs::path& path, int error) {
+  if (error == ENOMEM) throw std::bad_alloc();
   const std::string message = doing + " " + quoted(path) + ": " + std::generic_category().message(error);
   if (error == ENOENT || error == ENOTDIR)
     throw Error(Status::file_not_found, message, "check the path and the folder the program runs in");
@@ -71,8 +80,8 @@ std::vector<std::byte> read_all(const FileDescriptor& file, const fs::path& path
   std::vector<std::byte> bytes(static_cast<size_t>(info.st_size) + 1);
   size_t filled = 0;
   for (;;) {
-    const ssize_t got = ::read(file.get(), bytes.data() + filled, bytes.size() - filled);
-    if (got < 0 && errno == EINTR) continue;
+    const ssize_t got =
+        uninterrupted([&] { return ::read(file.get(), bytes.data() + filled, bytes.size() - filled); });
     if (got < 0) fail("cannot read", path, errno);
     if (got == 0) break;
     filled += static_cast<size_t>(got);
@@ -90,9 +99,10 @@ class TemporaryFile {
     static std::atomic<uint32_t> counter{0};
     for (int attempt = 0; attempt < 100; ++attempt) {
       path_ = folder / (".focal-" + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".tmp");
-      file_ = FileDescriptor(::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode));
+      constexpr int flags = O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC;
+      file_ = FileDescriptor(uninterrupted([&] { return ::open(path_.c_str(), flags, mode); }));
       if (file_.valid()) return;
-      if (errno != EEXIST && errno != EINTR) break;
+      if (errno != EEXIST) break;
     }
     fail("cannot create", path_, errno);
   }
@@ -107,17 +117,19 @@ class TemporaryFile {
   void write_and_sync(std::span<const std::byte> bytes) {
     while (!bytes.empty()) {
       constexpr size_t kChunk = size_t{1} << 30;  // Linux writes at most 2 GiB a call
-      const ssize_t written = ::write(file_.get(), bytes.data(), std::min(bytes.size(), kChunk));
-      if (written < 0 && errno == EINTR) continue;
-      if (written < 0) fail("cannot write", path_, errno);
+      const ssize_t written =
+          uninterrupted([&] { return ::write(file_.get(), bytes.data(), std::min(bytes.size(), kChunk)); });
+      if (written <= 0) fail("cannot write", path_, written < 0 ? errno : ENOSPC);
       bytes = bytes.subspan(static_cast<size_t>(written));
     }
-    if (::fsync(file_.get()) != 0) fail("cannot flush", path_, errno);
-    if (file_.close() != 0) fail("cannot close", path_, errno);
+    if (uninterrupted([&] { return ::fsync(file_.get()); }) != 0) fail("cannot flush", path_, errno);
+    // Closed all the same when that is interrupted, and what it holds is on the disk already.
+    if (file_.close() != 0 && errno != EINTR) fail("cannot close", path_, errno);
   }
 
   void rename_to(const fs::path& target) {
-    if (::rename(path_.c_str(), target.c_str()) != 0) fail("cannot replace", target, errno);
+    if (uninterrupted([&] { return ::rename(path_.c_str(), target.c_str()); }) != 0)
+      fail("cannot replace", target, errno);
     renamed_ = true;
   }
 
@@ -129,9 +141,11 @@ class TemporaryFile {
 
 // Makes the rename itself durable. Some file systems do not know fsync on folders; that is no failure.
 void sync_folder(const fs::path& folder) {
-  const FileDescriptor handle(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  const FileDescriptor handle(
+      uninterrupted([&] { return ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); }));
   if (!handle.valid()) return;  // a folder may be writable and not readable
-  if (::fsync(handle.get()) != 0 && errno != EINVAL && errno != ENOTSUP) fail("cannot flush", folder, errno);
+  if (uninterrupted([&] { return ::fsync(handle.get()); }) != 0 && errno != EINVAL && errno != ENOTSUP)
+    fail("cannot flush", folder, errno);
 }
 
 }  // namespace
@@ -170,9 +184,12 @@ std::vector<std::byte> read_file_inside(const fs::path& folder, const fs::path& 
 
 void write_file_atomically(const fs::path& path, std::span<const std::byte> bytes) {
   require_plain_name(path);
-  std::error_code ignored;
+  std::error_code error;
   // Through a link the file it names is replaced, and the link stays.
-  const fs::path target = fs::is_symlink(path, ignored) ? fs::weakly_canonical(path, ignored) : path;
+  const bool is_link = fs::is_symlink(path, error);
+  error.clear();
+  const fs::path target = is_link ? fs::weakly_canonical(path, error) : path;
+  if (error) fail("cannot follow", path, error.value());
   struct stat old {};
   const bool replaces = ::stat(target.c_str(), &old) == 0;
   if ((replaces && !S_ISREG(old.st_mode)) || !target.has_filename())

@@ -20,8 +20,8 @@ std::vector<std::byte> read_file_inside(const std::filesystem::path& folder,
                                         const std::filesystem::path& relative,
                                         int64_t size_limit = kDefaultFileLimit);
 
-// After a normal return the file holds exactly `bytes`, on disk; after an exception or a crash the old file,
-// if any, is whole. Throws io, invalid_argument (the path is a folder, device or pipe), file_not_found (no
+// After a normal return the file holds exactly `bytes`, on disk; after an exception or a crash it is the old file,
+// if any, or (when only the folder could not be flushed) the new one, whole. Throws io, invalid_argument (the path is a folder, device or pipe), file_not_found (no
 // such folder).
 void write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
 

@@ -16,6 +16,23 @@ using MatrixX3 = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;    /
 using MatrixX3i = Eigen::Matrix<int32_t, Eigen::Dynamic, 3, Eigen::RowMajor>;  // triangles
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using RowMatrixf = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int32_t>;
+
+// Eigen's constructors lose their first array when there is no memory for the second. Here the matrix exists before it is
+// filled, so its destructor frees what there is.
+class SparseMatrix : public Eigen::SparseMatrix<double, Eigen::ColMajor, int32_t> {
+ public:
+  using Base = Eigen::SparseMatrix<double, Eigen::ColMajor, int32_t>;
+  SparseMatrix() = default;
+  SparseMatrix(Eigen::Index rows, Eigen::Index columns) : SparseMatrix() { resize(rows, columns); }
+  SparseMatrix(const SparseMatrix& other) : SparseMatrix() { Base::operator=(other); }
+  SparseMatrix(SparseMatrix&& other) : SparseMatrix() { swap(other); }
+  template <class Expression>
+  SparseMatrix(const Eigen::EigenBase<Expression>& other) : SparseMatrix() {
+    Base::operator=(other.derived());
+  }
+  ~SparseMatrix() = default;
+  SparseMatrix& operator=(const SparseMatrix& other) { return Base::operator=(other), *this; }
+  SparseMatrix& operator=(SparseMatrix&& other) noexcept { return swap(other), *this; }
+};
 
 }  // namespace focal

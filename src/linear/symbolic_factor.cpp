@@ -36,7 +36,8 @@ Pattern permuted_pattern(const SparseMatrix& A, const std::vector<int32_t>& orde
 
 std::vector<int32_t> minimum_degree(const SparseMatrix& A) {
   Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int32_t> inverse;
-  SparseMatrix full = A.selfadjointView<Eigen::Lower>();
+  SparseMatrix::Base full;  // filled when it is there, see base/matrix.h
+  full = A.selfadjointView<Eigen::Lower>();
   Eigen::AMDOrdering<int32_t>()(full, inverse);
   std::vector<int32_t> order(A.cols());
   for (int32_t i = 0; i < inverse.size(); ++i) order[inverse.indices()[i]] = i;

@@ -1,6 +1,4 @@
 // Other resolutions of the same surface: the damages that change every triangle.
-#include <meshoptimizer.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +7,7 @@
 #include <tuple>
 
 #include "mesh/closest_point.h"
+#include "mesh/collapse.h"
 #include "mesh/damage.h"
 
 namespace focal {
@@ -20,12 +19,9 @@ DamagedMesh decimated(DamagedMesh damaged, double factor) {
   const TriangleMesh& mesh = damaged.mesh;
   const Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> positions = mesh.positions.cast<float>();
   const std::vector<unsigned> indices(mesh.triangles.data(), mesh.triangles.data() + mesh.triangles.size());
-  std::vector<unsigned> kept(indices.size());
   const auto wanted =
-      std::min(indices.size(), 3 * static_cast<size_t>(std::max(4.0, factor * mesh.triangle_count())));
-  kept.resize(meshopt_simplify(kept.data(), indices.data(), indices.size(), positions.data(),
-                               positions.rows(), 3 * sizeof(float), wanted, std::numeric_limits<float>::max(),
-                               0, nullptr));
+      std::min(indices.size() / 3, static_cast<size_t>(std::max(4.0, factor * mesh.triangle_count())));
+  const std::vector<unsigned> kept = collapse_edges(indices, positions, wanted, 0);
   std::vector<SurfaceQuery> queries;
   for (const auto& mark : damaged.marks) {
     if (!mark) continue;

@@ -10,6 +10,8 @@
 #include <numeric>
 #include <vector>
 
+#include "mesh/collapse.h"
+
 namespace focal {
 namespace {
 
@@ -52,11 +54,7 @@ Positions upright_positions(const MatrixX3& positions, const Execution& executio
 }
 
 Indices simplify(const Indices& indices, const Positions& positions, size_t triangles, unsigned options) {
-  Indices kept(indices.size());
-  kept.resize(meshopt_simplify(kept.data(), indices.data(), indices.size(), positions.data(),
-                               positions.rows(), 3 * sizeof(float), 3 * std::max<size_t>(triangles, 8),
-                               std::numeric_limits<float>::max(), options, nullptr));
-  return kept;
+  return collapse_edges(indices, positions, std::max<size_t>(triangles, 8), options);
 }
 
 // The same over the vertices that the triangles use, numbered anew by first use. scratch: -1 for each vertex of the mesh;

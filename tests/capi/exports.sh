@@ -18,4 +18,9 @@ if [ -n "$needed" ] && ! echo "$needed" | grep -q 'lib.san\.so'; then
   echo "the library needs more than libc, libm and meshoptimizer:" $needed
   exit 1
 fi
-echo "$(printf '%s\n' "$exported" | wc -l) functions, as declared"
+newest=$(objdump -T "$library" | grep -o 'GLIBC_[0-9.]*' | sort -uV | tail -1)
+if [ -z "$needed" ] && [ "$(printf '%s\n' "$newest" GLIBC_2.36 | sort -V | tail -1)" != GLIBC_2.36 ]; then
+  echo "the library needs $newest, Debian 12 has GLIBC_2.36"
+  exit 1
+fi
+echo "$(printf '%s\n' "$exported" | wc -l) functions, as declared; newest symbol $newest"

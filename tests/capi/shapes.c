@@ -80,45 +80,6 @@ void shape_destroy(shape* shape) {
   free(shape->indices);
 }
 
-focal_mesh_desc shape_desc(const shape* shape) {
-  focal_mesh_desc desc;
-  focal_mesh_desc_init(&desc, sizeof desc);
-  desc.positions = shape->positions;
-  desc.vertex_count = shape->vertex_count;
-  desc.indices = shape->indices;
-  desc.index_count = shape->index_count;
-  return desc;
-}
-
-static void insist(focal_status status) {
-  if (status == FOCAL_OK) return;
-  fprintf(stderr, "%s: %s\n", focal_status_name(status), focal_last_error());
-  exit(2);
-}
-
-focal_mesh* shape_mesh(const focal_context* context, int rings, float variation) {
-  shape body = shape_create(rings, variation);
-  const focal_mesh_desc desc = shape_desc(&body);
-  focal_mesh* mesh = NULL;
-  insist(focal_mesh_create(context, &desc, NULL, &mesh));
-  shape_destroy(&body);
-  return mesh;
-}
-
-focal_training_set* shape_training_set(const focal_context* context, int rings, int count) {
-  focal_training_set* set = NULL;
-  insist(focal_training_set_create(context, shape_mark_names, SHAPE_MARKS, &set));
-  for (int i = 0; i < count; ++i) {
-    const float variation = 0.05f * (float)i;
-    shape body = shape_create(rings, variation);
-    focal_mesh* mesh = shape_mesh(context, rings, variation);
-    insist(focal_training_set_add_vertices(set, mesh, body.marks, SHAPE_MARKS));
-    focal_mesh_destroy(mesh);
-    shape_destroy(&body);
-  }
-  return set;
-}
-
 static unsigned char* put_u32(unsigned char* at, uint32_t value) {
   for (int i = 0; i < 4; ++i) *at++ = (unsigned char)(value >> (8 * i));
   return at;
