@@ -6,7 +6,7 @@ changed in every way below, one at a time; the file is compiled anew, linked in 
 concern it are run. A mutant that no test fails on has survived: a test is missing, or the change changes nothing; those
 are listed with their reason in equivalent.txt. Needs a release build of the tests (tests/run.sh).
 
-usage: run.py [--build BUILD] [--sample N] [--seed S] [--only TEXT] [--jobs N]
+usage: run.py [--build BUILD] [--sample N] [--seed S] [--only TEXT] [--jobs N] [--least PERCENT]
 """
 import argparse
 import concurrent.futures
@@ -175,6 +175,7 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--only", default="", help="only files whose path holds this")
     parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--least", type=float, default=95, help="percent of the mutants that must be killed")
     given = parser.parse_args()
     build = Build(given.build.resolve())
     equivalent = {line.split("  #")[0].strip() for line in (HERE / "equivalent.txt").read_text().splitlines()
@@ -202,7 +203,7 @@ def main():
     share = 100 * killed / tried
     print(f"{tried} mutants, {killed} killed ({share:.1f} %), {len(survivors)} survived; {stillborn} did not compile, "
           f"{len(known)} change nothing (equivalent.txt)")
-    sys.exit(share < 95)
+    sys.exit(share < given.least)
 
 
 if __name__ == "__main__":
