@@ -68,16 +68,16 @@ Bones bones_of(const std::string& set) {
   return found == listed.end() ? Bones{} : found->second;
 }
 
-picture::Figure parts_figure(const focal::Detection& detection, const focal::Mesh& mesh,
+picture::Figure parts_figure(const focal::Detection& detection, const Marked& shape,
                              const std::string& caption) {
-  picture::Figure figure = surface_figure(mesh);
+  picture::Figure figure = surface_figure(shape.mesh);
   figure.triangles_drawn = 3500;
   figure.parts.assign(figure.positions.size(), 0);
   const std::vector<int32_t> labels = detection.segments(FOCAL_SEGMENTATION_K_MEANS);
   for (size_t t = 0; t < labels.size(); ++t)
     for (const uint32_t v : figure.triangles[t]) figure.parts[v] = std::max(labels[t], 0);
   figure.caption = caption;
-  figure.yaw = 25;
+  face_marks(figure, shape);
   return figure;
 }
 
@@ -95,12 +95,11 @@ focal::Detection from_anywhere(const Study& study, uint32_t seed) {
 }
 
 std::string segmentation(const Study& study) {
-  const focal::Mesh& mesh = study.test().mesh;
   std::vector<picture::Figure> figures;
   for (const focal_preset preset : kPresets)
-    figures.push_back(parts_figure(study.found(preset), mesh, label_of(preset, "from the points")));
+    figures.push_back(parts_figure(study.found(preset), study.test(), label_of(preset, "from the points")));
   for (const uint32_t seed : {1u, 2u})
-    figures.push_back(parts_figure(from_anywhere(study, seed), mesh, "from anywhere"));
+    figures.push_back(parts_figure(from_anywhere(study, seed), study.test(), "from anywhere"));
   return section(
       "Fig. 12: segmentation",
       "k-means of position and SI-HKS that starts at the points found, and at points drawn at random.", "",
@@ -128,7 +127,7 @@ std::string correspondence(const Study& study) {
         figure.marks.push_back({landmark.name, found_place(found, landmark.name)});
       add_bones(figure, bones_of(study.set.name));
       figure.caption = label_of(preset, "shape " + std::to_string(shape + 1));
-      figure.yaw = 25;
+      face_marks(figure, study.set.test[shape]);
       figures.push_back(std::move(figure));
     }
   return section(

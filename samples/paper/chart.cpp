@@ -7,12 +7,18 @@
 namespace paper {
 namespace {
 
-constexpr double kLeft = 52, kRight = 348, kTop = 30, kBottom = 190;  // of the axes, in pixels
+constexpr double kLeft = 58, kRight = 348, kTop = 30, kBottom = 190;  // of the axes, in pixels
 constexpr int kTicks = 4;
 
 std::string number(double value) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
+std::string rounded(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, value < 1000 ? "%.2g" : "%.0f", value);
   return text;
 }
 
@@ -37,8 +43,8 @@ std::string axes(const Range& x, const Range& y) {
     const double share = static_cast<double>(i) / kTicks;
     const double across = kLeft + share * (kRight - kLeft), up = kBottom - share * (kBottom - kTop);
     svg += "<path class=\"grid\" d=\"M" + number(kLeft) + " " + number(up) + "H" + number(kRight) + "\"/>";
-    svg += text_at(kLeft - 5, up + 4, number(y.at(share)), "end");
-    svg += text_at(across, kBottom + 14, number(x.at(share)), "middle");
+    svg += text_at(kLeft - 5, up + 4, rounded(y.at(share)), "end");
+    svg += text_at(across, kBottom + 14, rounded(x.at(share)), "middle");
   }
   return svg;
 }
@@ -60,7 +66,7 @@ std::string chart(const std::string& title, const std::string& x_name, const std
   Range x, y;
   y.add(0);
   for (const Curve& curve : curves)
-    for (const auto& [px, py] : curve.points) x.add(px), y.add(py);
+    for (const auto& [px, py] : curve.points) x.add(px), y.add(1.04 * py);
   std::string svg =
       "<svg class=\"chart\" xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 360 236\" width=\"360\">" +
       text_at(kLeft, 16, title, "start") + axes(x, y) + text_at(kRight, kBottom + 29, x_name, "end") +

@@ -98,10 +98,11 @@ Shape scaled(Shape shape, const std::array<double, 3>& factors) {
 }
 
 Shape resampled(const Shape& shape, size_t vertices) {
+  const auto wanted = static_cast<double>(vertices);
+  const auto count = [](const Shape& s) { return static_cast<double>(s.positions.size() / 3); };
   Shape result = shape;
-  while (result.positions.size() / 3 < vertices) result = refined(result);
-  return decimated(result,
-                   static_cast<double>(vertices) / (static_cast<double>(result.positions.size()) / 3));
+  while (count(result) < 0.9 * wanted) result = refined(result);
+  return count(result) > 1.1 * wanted ? decimated(result, wanted / count(result)) : result;
 }
 
 Shape cut_off(Shape shape, const std::vector<float>& distances, double radius) {

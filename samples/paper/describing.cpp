@@ -102,14 +102,14 @@ std::string symmetry(const Study& study) {
                    {curve_of(name, kPaints[2], values.data(), values.size() / 2),
                     curve_of(other->first, kPaints[0], &values[values.size() / 2], values.size() / 2)});
     };
-    charts += draw("SI-HKS");
+    charts += "<div>" + draw("SI-HKS");
     for (std::ptrdiff_t i = 0; i < 2; ++i) {
       const picture::Point p = place_of(study.test(), i == 0 ? name : other->first);
       const double side =
           plane.normal[0] * p[0] + plane.normal[1] * p[1] + plane.normal[2] * p[2] - plane.offset;
       if (side < 0) std::reverse(values.begin() + i * dimension, values.begin() + (i + 1) * dimension);
     }
-    charts += draw("symmetry-aware");
+    charts += draw("symmetry-aware") + "</div>";
     ++pairs;
   }
   return pairs == 0
@@ -133,7 +133,7 @@ std::string planes(const std::vector<Study>& studies) {
             plane.normal[0] * p[0] + plane.normal[1] * p[1] + plane.normal[2] * p[2] - plane.offset;
         figure.heat.push_back(std::abs(side) < width ? 0.85 : side > 0 ? 0.25 : 0);
       }
-      figure.yaw = 25;
+      face_marks(figure, *marked);
       figure.caption = study.set.name + ", " + fixed(100 * plane.support, 0) + " %";
       figures.push_back(std::move(figure));
     }

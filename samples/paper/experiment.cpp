@@ -165,11 +165,23 @@ picture::Figure surface_figure(const focal::Mesh& mesh) {
   picture::Figure figure;
   add_surface(mesh, figure);
   figure.pitch = pitch_of(figure);
-  figure.triangles_drawn = 1600;
+  figure.triangles_drawn = 2200;
   return figure;
 }
 
 void face(picture::Figure& figure, const picture::Point& point) { figure.yaw = yaw_towards(figure, point); }
+
+void face_marks(picture::Figure& figure, const Marked& marked) {
+  picture::Figure turning = surface_figure(marked.mesh);
+  for (const auto& [name, mark] : marked.marks) turning.marks.push_back({name, place_of(marked, name)});
+  size_t most = 0;
+  for (turning.yaw = 0; turning.yaw < 360; turning.yaw += 30) {
+    const picture::Panel panel = picture::fit_into_panel(turning, 2000, 2700);
+    size_t shown = 0;
+    for (size_t i = 0; i < panel.marks.size(); ++i) shown += !picture::is_hidden(panel, i);
+    if (shown > most) most = shown, figure.yaw = turning.yaw;
+  }
+}
 
 picture::Figure vote_figure(const focal::Detection& detection, const focal::Mesh& mesh,
                             const Question& question, const std::string& label) {

@@ -60,6 +60,8 @@ double error_of(const focal::Detection& detection, const Question& question);
 picture::Figure surface_figure(const focal::Mesh& mesh);
 // Turns it so that most of the surface round a point is seen.
 void face(picture::Figure& figure, const picture::Point& point);
+// Turns it so that most of the marks are seen.
+void face_marks(picture::Figure& figure, const Marked& marked);
 
 // The caption is `label` and the error.
 picture::Figure vote_figure(const focal::Detection& detection, const focal::Mesh& mesh,

@@ -44,7 +44,7 @@ std::string extraction(const Study& study) {
     for (const focal_preset preset : kPresets) {
       figures.push_back(all_votes_figure(study.detections[study.place(preset)][shape], study.set.test[shape],
                                          label_of(preset, "all")));
-      figures.back().yaw = 25;
+      face_marks(figures.back(), study.set.test[shape]);
     }
   return section(
       "Figs. 8 and 9: " + study.set.name,

@@ -40,20 +40,25 @@ std::string curves_of(const Study& study, focal_preset preset, const std::string
       errors[i].points.push_back(
           {at, square_error(model, analysis, static_cast<uint32_t>(i), study.test().marks.at(names[i]))});
   }
-  return chart(label_of(preset, "mean square error"), x, "", errors) +
-         chart(label_of(preset, "seconds of training"), x, "", {time});
+  return "<div>" + chart(label_of(preset, "mean square error"), x, "", errors) +
+         chart(label_of(preset, "seconds of training"), x, "", {time}) + "</div>";
 }
 
 std::string by_rate(const Study& study) {
   const std::vector<double> rates =
-      study.quick ? std::vector<double>{0.1, 0.3, 0.5, 1} : std::vector<double>{0.1, 0.2, 0.3, 0.5, 0.7, 1};
+      study.quick ? std::vector<double>{0.1, 0.5, 1} : std::vector<double>{0.1, 0.2, 0.3, 0.5, 0.7, 1};
   std::string charts;
   for (const focal_preset preset : kPresets) {
     std::vector<std::pair<double, Recipe>> recipes;
     for (const double rate : rates) recipes.push_back({rate, {.preset = preset, .sampling_rate = rate}});
     charts += curves_of(study, preset, "sampling rate in training", recipes);
   }
-  return section("Fig. 7 a: how much of each training shape is sampled", "", "", charts);
+  return section(
+      "Fig. 7 a: how much of each training shape is sampled",
+      "Mean square error of the distances that a model tells of the test shape's sample points.",
+      "preset default keeps distributions, and their mean, shown here, is no better for more samples: where "
+      "a landmark has a mirror image it lies between two distances (see Fig. 5).",
+      charts);
 }
 
 std::string by_shapes(const Study& study) {
@@ -64,7 +69,8 @@ std::string by_shapes(const Study& study) {
       recipes.push_back({static_cast<double>(count), {.preset = preset, .meshes = count}});
     charts += curves_of(study, preset, "training shapes", recipes);
   }
-  return section("Fig. 7 b: how many shapes are trained on", "", "", charts);
+  return section("Fig. 7 b: how many shapes are trained on", "As in part a, at the preset's rate.", "",
+                 charts);
 }
 
 // Votes that sum to 1.
@@ -84,7 +90,7 @@ std::string by_votes(const Study& study, focal_preset preset) {
   for (size_t i = 0; i < names.size(); ++i) changes.push_back({names[i], kPaints[i % 3], {}});
   Curve time{"", "#444", {}};
   std::vector<std::vector<float>> before(names.size());
-  for (const double rate : {0.02, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4}) {
+  for (const double rate : {0.02, 0.05, 0.1, 0.15, 0.2, 0.3}) {
     const auto start = std::chrono::steady_clock::now();
     const focal::Detection found =
         detect(study.model(preset), study.test().mesh, std::max(1, static_cast<int32_t>(rate * vertices)));
@@ -98,8 +104,8 @@ std::string by_votes(const Study& study, focal_preset preset) {
       before[i] = std::move(votes);
     }
   }
-  return chart(label_of(preset, "change of the votes"), "sampling rate in detection", "", changes) +
-         chart(label_of(preset, "seconds of detection"), "sampling rate in detection", "", {time});
+  return "<div>" + chart(label_of(preset, "change of the votes"), "sampling rate in detection", "", changes) +
+         chart(label_of(preset, "seconds of detection"), "sampling rate in detection", "", {time}) + "</div>";
 }
 
 }  // namespace

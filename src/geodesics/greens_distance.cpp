@@ -9,8 +9,8 @@ namespace focal {
 namespace {
 
 constexpr int lanes = Distance::lanes;
-constexpr double shift =
-    1e-9;  // of the Laplacian in units of 1 / area: makes it definite, far below its other eigenvalues
+// Of the Laplacian, in units of 1 / area: makes it definite, slivers or not, and lies far below its other eigenvalues.
+constexpr double shift = 1e-6;
 
 SparseMatrix shifted(SparseMatrix L, const Operators& operators) {
   for (int32_t i = 0; i < L.rows(); ++i) L.coeffRef(i, i) += shift / operators.area * operators.mass[i];
