@@ -31,7 +31,14 @@ struct DescriptorKind {
 
 // All descriptors there are, one line each: the n-th line defines number n in focal.h, so lines are only ever added at the
 // end. A line `kind(NAME)` stands for a function `DescriptorKind NAME_descriptor()` in a file of its own.
-#define FOCAL_DESCRIPTORS(kind) kind(si_hks) kind(hks) kind(wks) kind(spin_image) kind(unique_shape_context)
+// clang-format off
+#define FOCAL_DESCRIPTORS(kind) \
+  kind(si_hks)                  \
+  kind(hks)                     \
+  kind(wks)                     \
+  kind(spin_image)              \
+  kind(unique_shape_context)
+// clang-format on
 
 std::span<const DescriptorKind> descriptor_kinds();
 

@@ -84,7 +84,13 @@ struct DistanceKind {
 
 // All distances there are, one line each: the n-th line defines number n in focal.h, so lines are only ever added at the end.
 // A line `kind(NAME)` stands for a function `DistanceKind NAME_distance()` in a file of its own.
-#define FOCAL_DISTANCES(kind) kind(heat) kind(exact) kind(biharmonic) kind(commute_time)
+// clang-format off
+#define FOCAL_DISTANCES(kind) \
+  kind(heat)                  \
+  kind(exact)                 \
+  kind(biharmonic)            \
+  kind(commute_time)
+// clang-format on
 
 std::span<const DistanceKind> distance_kinds();
 
