@@ -9,6 +9,8 @@
 #include "base/error.h"
 #include "blob.h"
 #include "boundary.h"
+#include "descriptors/descriptor.h"
+#include "geodesics/distance.h"
 #include "landmarks/model_file.h"
 #include "landmarks/model_parts.h"
 #include "landmarks/train.h"
@@ -32,6 +34,8 @@ focal_train_params to_abi(const TrainParams& params) {
   result.seed = params.seed;
   result.learn_confidence = params.learns_confidence;
   result.rigged_shapes = RiggedShapesParams{}.shapes;
+  result.descriptor = params.descriptor;
+  result.distance = params.distance;
   return result;
 }
 
@@ -59,7 +63,7 @@ struct StructTraits<focal_train_params> {
   static constexpr size_t first_size = 48;
   static focal_train_params defaults() { return to_abi(TrainParams::from_preset(Preset::default_preset)); }
 };
-static_assert(sizeof(focal_train_params) == 56 && offsetof(focal_train_params, seed) == 40);
+static_assert(sizeof(focal_train_params) == 64 && offsetof(focal_train_params, distance) == 60);
 
 template <>
 struct StructTraits<focal_model_info> {
@@ -84,6 +88,10 @@ TrainParams checked(const focal_train_params* given) {
   check_range("focal_train_params.proxy_vertices", params.proxy_vertices, 0, most);
   check_flag("focal_train_params.learn_confidence", params.learn_confidence);
   check_range("focal_train_params.rigged_shapes", params.rigged_shapes, 2, 10000);
+  check_range("focal_train_params.descriptor", params.descriptor, 0,
+              static_cast<double>(descriptor_kinds().size() - 1));
+  check_range("focal_train_params.distance", params.distance, 0,
+              static_cast<double>(distance_kinds().size() - 1));
   result.eigenpair_count = params.eigenpair_count;
   result.tree_count = params.tree_count;
   result.min_leaf_samples = params.min_leaf_samples;
@@ -93,6 +101,8 @@ TrainParams checked(const focal_train_params* given) {
   result.proxy_vertices = params.proxy_vertices;
   result.seed = params.seed;
   result.learns_confidence = params.learn_confidence != 0;
+  result.descriptor = params.descriptor;
+  result.distance = params.distance;
   return result;
 }
 

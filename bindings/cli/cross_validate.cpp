@@ -106,8 +106,11 @@ void cross_validate(const Options& options) {
   const std::vector<MeshOutcome> outcomes = validation.run();
   progress.clear();
   const Summary summary = summarise(outcomes);
-  Json report = {
-      {"set", set.name}, {"preset", preset_name(options.preset)}, {"folds", validation.fold_count()}};
+  Json report = {{"set", set.name},
+                 {"preset", preset_name(options.preset)},
+                 {"folds", validation.fold_count()},
+                 {"descriptor", focal_descriptor_name(options.descriptor)},
+                 {"distance", focal_distance_name(options.distance)}};
   report["meshes"] = Json::array();
   for (size_t i = 0; i < outcomes.size();
        ++i) {  // folds are neighbours, so outcomes come in the meshes' order

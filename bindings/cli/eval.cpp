@@ -50,10 +50,14 @@ std::vector<MeshOutcome> outcomes_of(const focal_context* context, const focal_m
 Json report_of(const Options& options, const SetFolder& set, const focal_model* model,
                const std::vector<MeshOutcome>& outcomes, const Summary& summary) {
   auto info = initialised(focal_model_info_init);
+  auto params = initialised(focal_train_params_init);
   check(focal_model_get_info(model, &info));
+  check(focal_model_get_train_params(model, &params));
   Json report = {{"set", set.name},
                  {"model", options.model},
                  {"preset", preset_name(info.preset)},
+                 {"descriptor", focal_descriptor_name(params.descriptor)},
+                 {"distance", focal_distance_name(params.distance)},
                  {"split", options.split},
                  {"quality", options.quality == FOCAL_QUALITY_BEST ? "best" : "interactive"}};
   report["meshes"] = Json::array();
@@ -86,6 +90,9 @@ void evaluate(const Options& options) {
   std::cout << "\n";
   print_meshes(std::cout, outcomes);
   print_summary(std::cout, summary);
+  std::cout << "By preset " << report["preset"].get<std::string>() << ", descriptor "
+            << report["descriptor"].get<std::string>() << ", distance "
+            << report["distance"].get<std::string>() << ".\n";
   if (page) std::cout << "\nThe report is " << options.report << "; any browser opens it, offline too.\n";
 }
 

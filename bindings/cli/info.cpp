@@ -45,7 +45,9 @@ Json model_json(const focal_model* model, const std::string& path) {
             {"sampling_rate", params.sampling_rate},
             {"max_samples_per_shape", params.max_samples_per_shape},
             {"proxy_vertices", params.proxy_vertices},
-            {"seed", params.seed}}}};
+            {"seed", params.seed},
+            {"descriptor", focal_descriptor_name(params.descriptor)},
+            {"distance", focal_distance_name(params.distance)}}}};
 }
 
 Json mesh_json(const focal_mesh* mesh, const std::string& path) {

@@ -2,6 +2,22 @@
 #include "parameters.h"
 
 namespace focal_cli {
+namespace {
+
+// A choice among what the library has.
+void add_named_choice(CLI::App& verb, const std::string& option, int32_t& value, const std::string& help,
+                      uint32_t count, const char* (*name)(int32_t)) {
+  std::string words;
+  std::map<std::string, int32_t> choices;
+  for (int32_t i = 0; i < static_cast<int32_t>(count); ++i) {
+    words += (i ? "|" : "") + std::string(name(i));
+    choices[name(i)] = i;
+  }
+  add_choice(verb, option, value, help, words, choices);
+}
+
+}  // namespace
+
 void add_train_options(CLI::App& verb, TrainOptions& options) {
   add_choice(verb, "--preset", options.preset, "default: measures best; paper: Xia et al. 2016 to the letter",
              "default|paper", {{"default", FOCAL_PRESET_DEFAULT}, {"paper", FOCAL_PRESET_PAPER}});
@@ -19,6 +35,11 @@ void add_train_options(CLI::App& verb, TrainOptions& options) {
                   "Analyse larger meshes on a decimated copy of about so many vertices; 0: as they are")
       ->type_name("N")
       ->check(CLI::Range(0, 10000000).description(""));
+  add_named_choice(verb, "--descriptor", options.descriptor, "What describes the surroundings of a point",
+                   focal_descriptor_count(), focal_descriptor_name);
+  add_named_choice(verb, "--distance", options.distance,
+                   "What distances are; those that are not geodesic with preset paper only",
+                   focal_distance_count(), focal_distance_name);
 }
 
 focal_train_params train_params_of(const TrainOptions& options, const CommonOptions& common) {
@@ -29,6 +50,8 @@ focal_train_params train_params_of(const TrainOptions& options, const CommonOpti
   params.sampling_rate = options.sampling_rate.value_or(params.sampling_rate);
   params.proxy_vertices = options.proxy_vertices.value_or(params.proxy_vertices);
   params.seed = common.seed.value_or(params.seed);
+  params.descriptor = options.descriptor;
+  params.distance = options.distance;
   return params;
 }
 

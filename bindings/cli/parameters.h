@@ -12,6 +12,8 @@ struct TrainOptions {
   focal_preset preset = FOCAL_PRESET_DEFAULT;
   std::optional<int32_t> trees, eigenpairs, proxy_vertices;
   std::optional<double> sampling_rate;
+  focal_descriptor descriptor = FOCAL_DESCRIPTOR_SI_HKS;
+  focal_distance distance = FOCAL_DISTANCE_HEAT;
 };
 
 void add_train_options(CLI::App& verb, TrainOptions& options);

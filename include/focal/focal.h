@@ -277,6 +277,62 @@ FOCAL_API focal_status focal_mesh_position_of(const focal_mesh* mesh, const foca
 FOCAL_API focal_status focal_mesh_point_at_vertex(const focal_mesh* mesh, uint32_t vertex,
                                                   focal_surface_point* out_point);
 
+/* ---- Measures: what training learns from, to look at ---- */
+
+/* What describes the surroundings of a point, and what distances are; more may come, see focal_descriptor_count
+ * and focal_distance_count. Values are never reused. */
+typedef int32_t focal_descriptor;
+enum {
+  FOCAL_DESCRIPTOR_SI_HKS = 0,     /* scale-invariant heat kernel signature */
+  FOCAL_DESCRIPTOR_HKS = 1,        /* heat kernel signature */
+  FOCAL_DESCRIPTOR_WKS = 2,        /* wave kernel signature */
+  FOCAL_DESCRIPTOR_SPIN_IMAGE = 3, /* of the neighbourhood in space, like the next: poses change it */
+  FOCAL_DESCRIPTOR_UNIQUE_SHAPE_CONTEXT = 4 /* tells left from right */
+};
+
+typedef int32_t focal_distance;
+enum {
+  FOCAL_DISTANCE_HEAT = 0,        /* geodesic, by the heat method */
+  FOCAL_DISTANCE_EXACT = 1,       /* geodesic, exact on the triangles; a hundred times slower */
+  FOCAL_DISTANCE_BIHARMONIC = 2,  /* not geodesic, like the next: preset paper only */
+  FOCAL_DISTANCE_COMMUTE_TIME = 3 /* has no unit */
+};
+
+/* Those that this library has, numbered from 0, with their names ("si-hks", "heat") and the number of values of
+ * a descriptor. NULL or 0 for a number that is none. */
+FOCAL_API uint32_t focal_descriptor_count(void);
+FOCAL_API const char* focal_descriptor_name(focal_descriptor descriptor);
+FOCAL_API uint32_t focal_descriptor_dimension(focal_descriptor descriptor);
+FOCAL_API uint32_t focal_distance_count(void);
+FOCAL_API const char* focal_distance_name(focal_distance distance);
+
+/* Describes vertices of the surface as it is, as preset paper does, by 200 eigenpairs; about a second for 12,500
+ * vertices. out_values: vertex_count x the descriptor's dimension. task may be NULL. Errors: INVALID_ARGUMENT
+ * (no such descriptor), INVALID_LANDMARK (no such vertex, or no triangle uses it), NOT_CONVERGED, CANCELLED. */
+FOCAL_API focal_status focal_mesh_describe(const focal_context* context, const focal_mesh* mesh,
+                                           focal_descriptor descriptor, const uint32_t* vertices,
+                                           uint64_t vertex_count, focal_task* task, float* out_values);
+
+/* Distances from one point to each of the caller's vertices, on the surface as it is, in the mesh's units
+ * (commute time: without a unit); INFINITY where no triangle uses the vertex. vertex_count must be the mesh's.
+ * task may be NULL. Errors: INVALID_ARGUMENT (no such distance), INVALID_LANDMARK, CANCELLED. */
+FOCAL_API focal_status focal_mesh_distances(const focal_context* context, const focal_mesh* mesh,
+                                            focal_distance distance, const focal_surface_point* source,
+                                            focal_task* task, uint64_t vertex_count, float* out_distances);
+
+/* The plane that mirrors most of the surface onto itself: {x : normal . x = offset}, by votes of pairs of points
+ * that look alike (Mitra, Guibas, Pauly 2006); about 0.3 s. The sign of the normal carries no meaning. */
+typedef struct focal_symmetry_plane {
+  uint32_t struct_size;
+  float normal[3]; /* of length 1 */
+  double offset;   /* in the mesh's units */
+  double support;  /* 0..1: share of the surface's points whose mirror images lie on it */
+} focal_symmetry_plane;
+
+FOCAL_API focal_status focal_symmetry_plane_init(focal_symmetry_plane* plane, size_t struct_size);
+FOCAL_API focal_status focal_mesh_symmetry_plane(const focal_context* context, const focal_mesh* mesh,
+                                                 uint64_t seed, focal_symmetry_plane* out_plane);
+
 /* ---- Training set [builder] ---- */
 
 /* landmark_names: landmark_count (1..4096) different, non-empty names; every mesh is then marked in this
@@ -334,6 +390,8 @@ typedef struct focal_train_params {
   /* Shapes learned of rigged characters in all, copies in other poses included; at least half as many again
      as there are characters. Default 16 */
   int32_t rigged_shapes;
+  focal_descriptor descriptor; /* kept in the model, detection follows it, as with the next. Default SI_HKS */
+  focal_distance distance;     /* UNSUPPORTED in preset default when it is not geodesic. Default HEAT */
 } focal_train_params;
 
 /* init fills the default preset; set_preset refills every field with the values of one preset. */
@@ -436,6 +494,16 @@ FOCAL_API focal_status focal_model_detect_analysis(const focal_model* model, con
 FOCAL_API focal_status focal_analysis_save(const focal_analysis* analysis, const char* path);
 FOCAL_API focal_status focal_analysis_load(const focal_context* context, const focal_mesh* mesh,
                                            const char* path, focal_analysis** out_analysis);
+
+/* What the model's regression makes of an analysis: for each of its sample points the distance to landmark
+ * `index` that follows from its descriptor, and the true one to `truth`, a point of the mesh. Preset default: in
+ * units of sqrt(surface_area), the mean of what the leaves hold. Preset paper: shares of the sample's own
+ * largest distance; of the two sides of the symmetry plane those that fit the truth better. sample_count must
+ * be the analysis's. Errors: INVALID_ARGUMENT, INVALID_LANDMARK. */
+FOCAL_API uint64_t focal_analysis_sample_count(const focal_analysis* analysis);
+FOCAL_API focal_status focal_model_regress(const focal_model* model, const focal_analysis* analysis,
+                                           uint32_t index, const focal_surface_point* truth,
+                                           uint64_t sample_count, float* out_regressed, float* out_true);
 
 typedef int32_t focal_landmark_status;
 enum { FOCAL_LANDMARK_FOUND = 0, FOCAL_LANDMARK_UNCERTAIN = 1, FOCAL_LANDMARK_ABSENT = 2 };

@@ -112,6 +112,31 @@ class Mesh : public Owner<focal_mesh, focal_mesh_destroy> {
       result.emplace_back(focal_mesh_warning(handle_, i));
     return result;
   }
+  focal_surface_point point_at_vertex(uint32_t vertex) const {
+    focal_surface_point point{};
+    check(focal_mesh_point_at_vertex(handle_, vertex, &point));
+    return point;
+  }
+  // vertices x focal_descriptor_dimension(descriptor), row-major.
+  std::vector<float> describe(const Context& context, focal_descriptor descriptor,
+                              const std::vector<uint32_t>& vertices, Task* task = nullptr) const {
+    std::vector<float> result(vertices.size() * focal_descriptor_dimension(descriptor));
+    check(focal_mesh_describe(context.get(), handle_, descriptor, vertices.data(), vertices.size(),
+                              task ? task->get() : nullptr, result.data()));
+    return result;
+  }
+  std::vector<float> distances(const Context& context, focal_distance distance,
+                               const focal_surface_point& source, Task* task = nullptr) const {
+    std::vector<float> result(static_cast<size_t>(info().vertex_count));
+    check(focal_mesh_distances(context.get(), handle_, distance, &source, task ? task->get() : nullptr,
+                               result.size(), result.data()));
+    return result;
+  }
+  focal_symmetry_plane symmetry_plane(const Context& context, uint64_t seed = 0) const {
+    auto plane = init(focal_symmetry_plane_init);
+    check(focal_mesh_symmetry_plane(context.get(), handle_, seed, &plane));
+    return plane;
+  }
 };
 
 class Analysis : public Owner<focal_analysis, focal_analysis_destroy> {
@@ -123,6 +148,7 @@ class Analysis : public Owner<focal_analysis, focal_analysis_destroy> {
     return Analysis(analysis);
   }
   void save(const std::string& path) const { check(focal_analysis_save(handle_, path.c_str())); }
+  uint64_t sample_count() const { return focal_analysis_sample_count(handle_); }
 };
 
 class Detection : public Owner<focal_detection, focal_detection_destroy> {
@@ -159,6 +185,12 @@ class Detection : public Owner<focal_detection, focal_detection_destroy> {
   std::vector<float> distances(uint32_t landmark) const {
     std::vector<float> result(static_cast<size_t>(info().vertex_count));
     check(focal_detection_distances(handle_, landmark, result.size(), result.data()));
+    return result;
+  }
+  // A label for each of the caller's triangles, -1 where there is none.
+  std::vector<int32_t> segments(focal_segmentation method) const {
+    std::vector<int32_t> result(static_cast<size_t>(info().triangle_count));
+    check(focal_detection_segment(handle_, method, nullptr, result.size(), result.data()));
     return result;
   }
   std::vector<float> region(uint32_t landmark, double radius) const {
@@ -232,6 +264,17 @@ class Model : public Owner<focal_model, focal_model_destroy> {
     focal_analysis* analysis = nullptr;
     check(focal_model_analyse(handle_, mesh.get(), params, task ? task->get() : nullptr, &analysis));
     return Analysis(analysis);
+  }
+  struct Regression {
+    std::vector<float> regressed, truth;  // one a sample of the analysis
+  };
+  Regression regress(const Analysis& analysis, uint32_t landmark, const focal_surface_point& truth) const {
+    Regression result;
+    result.regressed.resize(static_cast<size_t>(analysis.sample_count()));
+    result.truth.resize(result.regressed.size());
+    check(focal_model_regress(handle_, analysis.get(), landmark, &truth, result.truth.size(),
+                              result.regressed.data(), result.truth.data()));
+    return result;
   }
   Detection detect(const Analysis& analysis, const focal_detect_params* params = nullptr,
                    Task* task = nullptr) const {

@@ -91,13 +91,29 @@ Shape with_holes(Shape shape, size_t holes, uint32_t seed) {
   return shape;
 }
 
-Shape scaled(Shape shape, double factor) {
-  for (float& x : shape.positions) x *= static_cast<float>(factor);
+Shape scaled(Shape shape, const std::array<double, 3>& factors) {
+  for (size_t i = 0; i < shape.positions.size(); ++i)
+    shape.positions[i] *= static_cast<float>(factors[i % 3]);
   return shape;
 }
 
-Shape resampled(const Shape& shape, double share) {
-  return share < 1 ? decimated(shape, share) : refined(shape);
+Shape resampled(const Shape& shape, size_t vertices) {
+  const auto wanted = static_cast<double>(vertices);
+  const auto count = [](const Shape& s) { return static_cast<double>(s.positions.size() / 3); };
+  Shape result = shape;
+  while (count(result) < 0.9 * wanted) result = refined(result);
+  return count(result) > 1.1 * wanted ? decimated(result, wanted / count(result)) : result;
+}
+
+Shape cut_off(Shape shape, const std::vector<float>& distances, double radius) {
+  std::vector<uint32_t> kept;
+  for (size_t i = 0; i < shape.indices.size(); i += 3) {
+    const auto corner = shape.indices.begin() + static_cast<std::ptrdiff_t>(i);
+    if (std::none_of(corner, corner + 3, [&](uint32_t v) { return distances[v] < radius; }))
+      kept.insert(kept.end(), corner, corner + 3);
+  }
+  shape.indices = std::move(kept);
+  return shape;
 }
 
 double mean_edge(const Shape& shape) {

@@ -53,6 +53,7 @@ double apart(const picture::Point& a, const picture::Point& b) {
 // The turn that shows most of the surface around a point, with nothing in front of the point.
 double yaw_towards(picture::Figure figure, const picture::Point& point) {
   double radius = 0, best = 0, most = -1;
+  figure.heat.resize(figure.positions.size());
   for (const picture::Point& p : figure.positions) radius = std::max(radius, apart(p, point) / 5);
   for (size_t v = 0; v < figure.positions.size(); ++v) {
     figure.heat[v] = std::exp(-std::pow(apart(figure.positions[v], point) / radius, 2));
@@ -88,6 +89,9 @@ Set load_set(const focal::Context& context, const std::string& folder, size_t tr
   Set set;
   set.name = file.value("name", folder);
   set.landmarks = file.at("landmark_names").get<std::vector<std::string>>();
+  if (set.name == "hand" && set.landmarks.front() == "thumbTip") set.name = "sample hand";
+  set.kinds = kinds_of(set.name, set.landmarks);
+  set.landmarks = set.kinds.all();
   if (file.contains("mirror")) set.mirror = file["mirror"].get<std::map<std::string, std::string>>();
   for (const Json& name : file.at("train")) {
     if (set.train.size() < train) set.train.push_back(load_marked(context, folder, name));
@@ -99,11 +103,12 @@ Set load_set(const focal::Context& context, const std::string& folder, size_t tr
   return set;
 }
 
-focal::Model learn(const focal::Context& context, const Set& set, size_t meshes, focal_preset preset) {
-  focal::TrainingSet training(context, set.landmarks);
-  for (size_t i = 0; i < std::min(meshes, set.train.size()); ++i) {
+focal::Model learn(const focal::Context& context, const Set& set, const Recipe& recipe) {
+  const auto& landmarks = recipe.landmarks.empty() ? set.landmarks : recipe.landmarks;
+  focal::TrainingSet training(context, landmarks);
+  for (size_t i = 0; i < std::min(recipe.meshes, set.train.size()); ++i) {
     std::vector<focal_surface_point> points;
-    for (const std::string& name : set.landmarks) {
+    for (const std::string& name : landmarks) {
       const auto mark = set.train[i].marks.find(name);
       points.push_back(mark == set.train[i].marks.end() ? focal_surface_point{FOCAL_NO_TRIANGLE, {1, 0, 0}}
                                                         : mark->second);
@@ -111,7 +116,12 @@ focal::Model learn(const focal::Context& context, const Set& set, size_t meshes,
     training.add(set.train[i].mesh, points);
   }
   auto params = focal::init(focal_train_params_init);
-  focal::check(focal_train_params_set_preset(&params, preset));
+  focal::check(focal_train_params_set_preset(&params, recipe.preset));
+  params.descriptor = recipe.descriptor;
+  params.distance = recipe.distance;
+  params.learn_confidence = 0;  // which places are found does not hang on it
+  if (recipe.sampling_rate > 0) params.sampling_rate = recipe.sampling_rate;
+  if (recipe.trees > 0) params.tree_count = recipe.trees;
   return focal::Model(training, &params);
 }
 
@@ -130,23 +140,81 @@ focal::Detection detect(const focal::Model& model, const focal::Mesh& mesh, int3
   return model.detect(mesh, &params);
 }
 
-picture::Figure vote_figure(const focal::Detection& detection, const focal::Mesh& mesh,
-                            const Question& question, const std::string& label) {
+uint32_t index_of(const focal::Detection& detection, const std::string& landmark) {
   const std::vector<focal_landmark> landmarks = detection.landmarks();
   const auto found = std::find_if(landmarks.begin(), landmarks.end(),
-                                  [&](const focal_landmark& l) { return l.name == question.landmark; });
-  if (found == landmarks.end()) throw std::runtime_error("no landmark " + question.landmark);
+                                  [&](const focal_landmark& l) { return l.name == landmark; });
+  if (found == landmarks.end()) throw std::runtime_error("no landmark " + landmark);
+  return static_cast<uint32_t>(found - landmarks.begin());
+}
+
+picture::Point found_place(const focal::Detection& detection, const std::string& landmark) {
+  const focal_landmark found = detection.landmarks()[index_of(detection, landmark)];
+  return {found.position[0], found.position[1], found.position[2]};
+}
+
+double error_of(const focal::Detection& detection, const Question& question) {
+  return apart(found_place(detection, question.landmark), question.truth) / question.edge;
+}
+
+Question question_about(const Marked& marked, const std::string& landmark) {
+  return {landmark, place_of(marked, landmark), marked.mesh.info().mean_edge_length};
+}
+
+picture::Figure surface_figure(const focal::Mesh& mesh) {
   picture::Figure figure;
   add_surface(mesh, figure);
-  for (const float vote : detection.votes(static_cast<uint32_t>(found - landmarks.begin())))
-    figure.heat.push_back(vote);
-  const picture::Point guess = {found->position[0], found->position[1], found->position[2]};
-  figure.marks = {{"marked", question.truth, true, "#0a7d3c"}, {"found", guess, false, "#2563eb"}};
-  char words[32];
-  std::snprintf(words, sizeof words, ": %.1f", apart(guess, question.truth) / question.edge);
-  figure.caption = label + words;
   figure.pitch = pitch_of(figure);
-  figure.yaw = yaw_towards(figure, question.truth);
+  figure.triangles_drawn = 2200;
+  return figure;
+}
+
+void face(picture::Figure& figure, const picture::Point& point) { figure.yaw = yaw_towards(figure, point); }
+
+void face_marks(picture::Figure& figure, const Marked& marked) {
+  picture::Figure turning = surface_figure(marked.mesh);
+  for (const auto& [name, mark] : marked.marks) turning.marks.push_back({name, place_of(marked, name)});
+  size_t most = 0;
+  for (turning.yaw = 0; turning.yaw < 360; turning.yaw += 30) {
+    const picture::Panel panel = picture::fit_into_panel(turning, 2000, 2700);
+    size_t shown = 0;
+    for (size_t i = 0; i < panel.marks.size(); ++i) shown += !picture::is_hidden(panel, i);
+    if (shown > most) most = shown, figure.yaw = turning.yaw;
+  }
+}
+
+picture::Figure vote_figure(const focal::Detection& detection, const focal::Mesh& mesh,
+                            const Question& question, const std::string& label) {
+  picture::Figure figure = surface_figure(mesh);
+  for (const float vote : detection.votes(index_of(detection, question.landmark)))
+    figure.heat.push_back(vote);
+  figure.marks = {{"marked", question.truth, true, "#0a7d3c"},
+                  {"found", found_place(detection, question.landmark), false, "#2563eb"}};
+  char words[32];
+  std::snprintf(words, sizeof words, ": %.1f", error_of(detection, question));
+  figure.caption = label + words;
+  return figure;
+}
+
+picture::Figure all_votes_figure(const focal::Detection& detection, const Marked& marked,
+                                 const std::string& label) {
+  picture::Figure figure = surface_figure(marked.mesh);
+  figure.heat.assign(figure.positions.size(), 0);
+  double sum = 0;
+  const std::vector<focal_landmark> landmarks = detection.landmarks();
+  size_t asked = 0;
+  for (size_t l = 0; l < landmarks.size(); ++l) {
+    const std::vector<float> votes = detection.votes(static_cast<uint32_t>(l));
+    for (size_t v = 0; v < votes.size(); ++v)
+      if (const double squared = votes[v] * votes[v]; squared >= 0.2)
+        figure.heat[v] = std::max(figure.heat[v], squared);
+    if (!marked.marks.contains(landmarks[l].name)) continue;
+    sum += error_of(detection, question_about(marked, landmarks[l].name)), ++asked;
+    figure.marks.push_back({landmarks[l].name, found_place(detection, landmarks[l].name), false, "#2563eb"});
+  }
+  char words[32];
+  std::snprintf(words, sizeof words, ": %.1f", sum / static_cast<double>(std::max<size_t>(asked, 1)));
+  figure.caption = label + words;
   return figure;
 }
 

@@ -1,55 +1,75 @@
-// focal_paper OUT.html SET...: pictures of votes like the paper's Figs. 7-11, both presets, in one page of its own.
+// focal_paper [--quick] OUT.html SET...: the paper's tables and figures made anew, both presets, in one page of its own.
+// The first set is asked every question, so are other humans; the rest have tables, planes and Figs. 8, 9, 12 and 13.
+#include <chrono>
 #include <cstdio>
 #include <exception>
 #include <fstream>
 
-#include "figures.h"
+#include "page.h"
+#include "study.h"
 
 namespace {
 
-constexpr size_t kTrain = 6, kTest = 1;
+using Clock = std::chrono::steady_clock;
 
-constexpr const char* kHead = R"(<!DOCTYPE html>
-<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
-<link rel="icon" href="data:,"><title>Votes for focal features</title>
-<style>
-:root { color-scheme: light dark; }
-body { font: 16px/1.45 system-ui, sans-serif; max-width: 1180px; margin: 0 auto; padding: 1.2rem; background: #fff; color: #222; }
-@media (prefers-color-scheme: dark) { body { background: #17181b; color: #e8e6e1; } }
-svg { max-width: 100%; height: auto; }
-h2 { margin-top: 2.5rem; }
-.ramp { display: inline-block; width: 9rem; height: .8rem; border-radius: 4px; vertical-align: middle;
-  background: linear-gradient(90deg, #ccc7bd, #fadb8c, #f79940, #d93829, #800a29); }
-.found, .marked { display: inline-block; width: .8rem; height: .8rem; border-radius: 50%; vertical-align: middle; }
-.found { background: #2563eb; } .marked { border: 3px solid #0a7d3c; }
-</style></head><body>
-<h1>Votes for focal features</h1>
-<p>How the points of a surface vote for a landmark, with the method of Xia et al. 2016 to the letter (preset paper) and with the
-default one, which lets a constellation choose among the candidates that the votes leave. The test shape was not trained on.
-Votes: none <span class="ramp"></span> most. <span class="marked"></span> marked by hand, <span class="found"></span> found.
-The number in a caption is the error in mean edge lengths.</p>
-)";
+void tell(const std::string& what, Clock::time_point start) {
+  std::printf("%6.1f s  %s\n", std::chrono::duration<double>(Clock::now() - start).count(), what.c_str());
+  std::fflush(stdout);
+}
+
+std::string figures_of(const paper::Study& study, bool all, Clock::time_point start) {
+  struct Part {
+    const char* name;
+    std::string (*make)(const paper::Study&);
+    bool always;
+  };
+  static constexpr Part parts[] = {
+      {"Figs. 1, 6", paper::pipeline, false},      {"Fig. 2", paper::descriptors, false},
+      {"Fig. 3", paper::symmetry, false},          {"Fig. 4", paper::metrics, false},
+      {"Fig. 5", paper::regression, false},        {"Fig. 7", paper::sampling, false},
+      {"Figs. 8, 9", paper::extraction, true},     {"few marks", paper::few_marks, false},
+      {"Fig. 10", paper::damage, false},           {"Fig. 11", paper::resolution, false},
+      {"Figs. 12, 13", paper::applications, true}, {"Fig. 14", paper::missing_parts, false}};
+  std::string html = "<h2>" + study.set.name + ", " + std::to_string(study.set.train.size()) +
+                     " training and " + std::to_string(study.set.test.size()) + " test shapes</h2>\n";
+  for (const Part& part : parts) {
+    if (!all && !part.always) continue;
+    html += part.make(study);
+    tell(study.set.name + ", " + part.name, start);
+  }
+  return html;
+}
+
+std::string page_of(const focal::Context& context, const std::vector<std::string>& folders, bool quick) {
+  const auto start = Clock::now();
+  std::vector<paper::Study> studies;
+  for (const std::string& folder : folders) {
+    studies.emplace_back(context, paper::load_set(context, folder, quick ? 4 : 10, quick ? 2 : 4), quick);
+    tell(studies.back().set.name + ", models", start);
+  }
+  std::string page = paper::kHead;
+  page += "<h2>Tables</h2>\n" + paper::performance(studies) + paper::errors(studies) + paper::planes(studies);
+  for (size_t i = 0; i < studies.size(); ++i)
+    page += figures_of(studies[i], i == 0 || studies[i].set.name == "scape", start);
+  return page + "</body></html>\n";
+}
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 3) {
-    std::fprintf(stderr, "usage: %s OUT.html SET...\n", argv[0]);
+  std::vector<std::string> words(argv + 1, argv + argc);
+  const bool quick = !words.empty() && words[0] == "--quick";
+  if (quick) words.erase(words.begin());
+  if (words.size() < 2) {
+    std::fprintf(stderr, "usage: %s [--quick] OUT.html SET...\n", argv[0]);
     return 2;
   }
   try {
     const focal::Context context;
-    std::string page = kHead;
-    for (int i = 2; i < argc; ++i) {
-      const paper::Set set = paper::load_set(context, argv[i], kTrain, kTest);
-      std::printf("%s\n", set.name.c_str());
-      std::fflush(stdout);
-      page += "<h2>" + set.name + ", " + std::to_string(set.train.size()) + " training shapes</h2>\n";
-      page += paper::figures_of(context, set);
-    }
-    std::ofstream out(argv[1], std::ios::binary);
-    out << page << "</body></html>\n";
-    if (!out.flush()) throw std::runtime_error(std::string("cannot write ") + argv[1]);
+    const std::string page = page_of(context, {words.begin() + 1, words.end()}, quick);
+    std::ofstream out(words[0], std::ios::binary);
+    out << page;
+    if (!out.flush()) throw std::runtime_error("cannot write " + words[0]);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "focal_paper: %s\n", error.what());
     return 1;

@@ -66,11 +66,11 @@ std::string heat_colour(int heat, int shade) {
 }
 
 // Hues a golden angle apart stay different however many marks there are.
-std::string hue(int index) {
+std::string hue(int index, double light = 1) {
   const double turn = std::fmod(0.02 + 0.61803398875 * index, 1.0);
   const auto channel = [&](double offset) {
     const double x = std::fabs(std::fmod(6 * (turn + offset), 6.0) - 3) - 1;
-    return 0.12 + 0.8 * std::clamp(x, 0.0, 1.0);
+    return std::min(1.0, light * (0.12 + 0.8 * std::clamp(x, 0.0, 1.0)));
   };
   return colour(channel(0), channel(2.0 / 3), channel(1.0 / 3));
 }
@@ -91,28 +91,47 @@ std::string path_of(const std::vector<const Patch*>& patches) {
 
 int step_of(double share, int steps) { return std::clamp(static_cast<int>(share * steps), 0, steps - 1); }
 
-// What paints a patch: a class of the drawing's style, or for heat a colour.
-std::string paint_of(int heat, int shade, bool heated) {
-  if (!heated) return "class=\"s" + std::to_string(shade) + "\"";
-  const std::string paint = heat_colour(heat, shade);
+enum class Paint { clay, heat, parts };
+
+Paint paint_of(const Figure& figure) {
+  return !figure.parts.empty() ? Paint::parts : figure.heat.empty() ? Paint::clay : Paint::heat;
+}
+
+// What paints a patch: a class of the drawing's style, or a colour. value: a step of heat, or a part.
+std::string paint_of(Paint kind, int value, int shade) {
+  if (kind == Paint::clay) return "class=\"s" + std::to_string(shade) + "\"";
+  const std::string paint =
+      kind == Paint::heat ? heat_colour(value, shade) : hue(value, 0.6 + 0.6 * (shade + 0.5) / kHeatShades);
   return "fill=\"" + paint + "\" stroke=\"" + paint + "\"";
 }
 
-std::string surface_of(const Panel& panel, bool heated) {
+std::string surface_of(const Panel& panel, Paint kind) {
   const auto depth = [](const Patch& p) { return p.corners[0][2] + p.corners[1][2] + p.corners[2][2]; };
   double low = 1e300, high = -1e300;
   for (const Patch& patch : panel.patches)
     low = std::min(low, depth(patch)), high = std::max(high, depth(patch));
-  std::map<std::array<int, 3>, std::vector<const Patch*>> layers;  // by slab, then heat, then shade
+  std::map<std::array<int, 3>, std::vector<const Patch*>> layers;  // by slab, then heat or part, then shade
   for (const Patch& patch : panel.patches) {
     const int slab = static_cast<int>((depth(patch) - low) / (high - low + 1e-9) * kSlabs);
-    layers[{slab, step_of(patch.heat, kHeats), step_of(patch.shade, heated ? kHeatShades : kShades)}]
+    layers[{slab, kind == Paint::parts ? patch.part : step_of(patch.heat, kHeats),
+            step_of(patch.shade, kind == Paint::clay ? kShades : kHeatShades)}]
         .push_back(&patch);
   }
   std::string svg;
   for (const auto& [key, patches] : layers) {
     const std::string path = path_of(patches);
-    if (!path.empty()) svg += "<path " + paint_of(key[1], key[2], heated) + " d=\"" + path + "\"/>\n";
+    if (!path.empty()) svg += "<path " + paint_of(kind, key[1], key[2]) + " d=\"" + path + "\"/>\n";
+  }
+  return svg;
+}
+
+std::string bones_of(const Figure& figure, const Panel& panel) {
+  std::string svg;
+  for (const auto& [a, b] : figure.bones) {
+    const auto &from = panel.marks[a], &to = panel.marks[b];
+    svg += "<path fill=\"none\" stroke=\"#222\" style=\"stroke-width:28\" d=\"M" +
+           std::to_string(rounded(from[0])) + " " + std::to_string(rounded(from[1])) + "L" +
+           std::to_string(rounded(to[0])) + " " + std::to_string(rounded(to[1])) + "\"/>\n";
   }
   return svg;
 }
@@ -172,9 +191,9 @@ std::string draw(const std::vector<Figure>& figures, size_t columns) {
     const int x = kPanelWidth * static_cast<int>(i % columns);
     const int y = (kPanelHeight + kCaption) * static_cast<int>(i / columns);
     svg += "<g transform=\"translate(" + std::to_string(x + kMargin) + " " + std::to_string(y + kMargin) +
-           ")\">\n" + surface_of(panel, !figures[i].heat.empty()) + balls_of(figures[i], panel, colours) +
-           "<text x=\"" + std::to_string(kPanelWidth / 2 - kMargin) + "\" y=\"" +
-           std::to_string(kPanelHeight - kMargin + kCaption / 4) + "\"" +
+           ")\">\n" + surface_of(panel, paint_of(figures[i])) + bones_of(figures[i], panel) +
+           balls_of(figures[i], panel, colours) + "<text x=\"" + std::to_string(kPanelWidth / 2 - kMargin) +
+           "\" y=\"" + std::to_string(kPanelHeight - kMargin + kCaption / 4) + "\"" +
            (figures[i].caption.size() > kLongCaption ? " style=\"font-size:112px\"" : "") + ">" +
            escaped(figures[i].caption) + "</text>\n</g>\n";
   }

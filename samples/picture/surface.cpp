@@ -10,8 +10,7 @@
 namespace picture {
 namespace {
 
-constexpr size_t kTrianglesDrawn = 4400;  // of a figure: about 65 KB of SVG
-constexpr double kNearby = 90;            // depth that two things may differ by and still touch
+constexpr double kNearby = 90;  // depth that two things may differ by and still touch
 
 Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
@@ -43,7 +42,7 @@ std::vector<Point> vertex_normals(const Figure& figure) {
 }
 
 std::vector<std::array<uint32_t, 3>> simplified(const Figure& figure) {
-  if (figure.triangles.size() <= kTrianglesDrawn) return figure.triangles;
+  if (figure.triangles.size() <= figure.triangles_drawn) return figure.triangles;
   std::vector<float> positions;
   for (const Point& p : figure.positions)
     for (const double x : p) positions.push_back(static_cast<float>(x));
@@ -52,7 +51,7 @@ std::vector<std::array<uint32_t, 3>> simplified(const Figure& figure) {
   std::vector<uint32_t> kept(indices.size());
   const size_t count =
       meshopt_simplify(kept.data(), indices.data(), indices.size(), positions.data(), figure.positions.size(),
-                       3 * sizeof(float), 3 * kTrianglesDrawn, 0.05f, 0, nullptr);
+                       3 * sizeof(float), 3 * figure.triangles_drawn, 0.05f, 0, nullptr);
   std::vector<std::array<uint32_t, 3>> triangles;
   for (size_t i = 0; i + 2 < count; i += 3) triangles.push_back({kept[i], kept[i + 1], kept[i + 2]});
   return triangles;
@@ -92,7 +91,8 @@ Panel fit_into_panel(const Figure& figure, double width, double height) {
       for (int k = 0; k < 3; ++k) normal[k] += normals[v][k];
     double heat = 0;
     for (const uint32_t v : t) heat += figure.heat.empty() ? 0 : figure.heat[v] / 3;
-    panel.patches.push_back({corners, shade_of(unit(turned(normal, figure))), heat});
+    panel.patches.push_back({corners, shade_of(unit(turned(normal, figure))), heat,
+                             figure.parts.empty() ? 0 : figure.parts[t[0]]});
   }
   for (const Mark& mark : figure.marks) panel.marks.push_back(placed(turned(mark.position, figure)));
   return panel;

@@ -42,7 +42,8 @@ std::vector<int32_t> shared_landmarks(const Detection& from, const Detection& to
 // vertices x landmarks (padded to a multiple of 4): how near each landmark is.
 RowMatrixf nearness(const Detection& detection, const std::vector<int32_t>& landmarks,
                     const Execution& execution) {
-  const RowMatrixf distances = detection.analysis->heat.distances(places_of(detection, landmarks), execution);
+  const RowMatrixf distances =
+      detection.analysis->metric->distances(places_of(detection, landmarks), execution);
   RowMatrixf result = RowMatrixf::Zero(distances.cols(), (distances.rows() + 3) / 4 * 4);
   result.leftCols(distances.rows()) =
       (-distances.transpose().array() / static_cast<float>(near_landmarks)).exp();

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "base/error.h"
-#include "descriptors/descriptor.h"
+#include "descriptors/si_hks.h"
 
 namespace focal {
 namespace {
@@ -115,7 +115,7 @@ std::vector<int32_t> segment_geodesic(const Detection& detection, const Executio
   const std::vector<int32_t> found = placed_landmarks(detection);
   std::vector<int32_t> label(static_cast<size_t>(analysis.surface().vertex_count()), -1);
   if (!found.empty()) {
-    const RowMatrixf distances = analysis.heat.distances(places_of(detection, found), execution);
+    const RowMatrixf distances = analysis.metric->distances(places_of(detection, found), execution);
     for (size_t v = 0; v < label.size(); ++v) {
       Eigen::Index nearest = 0;
       distances.col(static_cast<Eigen::Index>(v)).minCoeff(&nearest);

@@ -1,20 +1,45 @@
-// Numbers that describe the surroundings of a point, equal at equal points of isometric surfaces.
+// Numbers that describe the surroundings of a point: the interface of every descriptor, and the list of them.
 #pragma once
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 #include "base/matrix.h"
 #include "base/parallel.h"
+#include "mesh/triangle_mesh.h"
+#include "operators/operators.h"
 #include "spectrum/eigenbasis.h"
 
 namespace focal {
 
-inline constexpr int32_t si_hks_dimension = 96;
+// What a descriptor may look at.
+struct DescribedSurface {
+  const TriangleMesh& mesh;
+  const Operators& operators;
+  const Eigenbasis& basis;
+};
 
-// Scale-invariant heat kernel signature (M. Bronstein, I. Kokkinos, "Scale-Invariant Heat Kernel Signatures for
-// Non-Rigid Shape Recognition", 2010) with the times and frequencies of Xia et al. 2016, Section 5.
-// area: of the surface; vertices: the rows of basis.Phi to describe. Returns vertices x 96, >= 0, no unit.
-RowMatrix si_hks(const Eigenbasis& basis, double area, std::span<const int32_t> vertices,
-                 const Execution& execution = Execution().inner());
+inline constexpr int32_t most_components = 128;  // of a descriptor: as model files have room for
+
+struct DescriptorKind {
+  std::string_view name;  // a literal: on the command line and in model files
+  int32_t dimension;      // at most most_components
+  // vertices: rows of mesh.positions to describe. Returns vertices x dimension.
+  RowMatrix (*describe)(const DescribedSurface& surface, std::span<const int32_t> vertices,
+                        const Execution& execution);
+};
+
+// All descriptors there are, one line each: the n-th line defines number n in focal.h, so lines are only ever added at the
+// end. A line `kind(NAME)` stands for a function `DescriptorKind NAME_descriptor()` in a file of its own.
+// clang-format off
+#define FOCAL_DESCRIPTORS(kind) \
+  kind(si_hks)                  \
+  kind(hks)                     \
+  kind(wks)                     \
+  kind(spin_image)              \
+  kind(unique_shape_context)
+// clang-format on
+
+std::span<const DescriptorKind> descriptor_kinds();
 
 }  // namespace focal

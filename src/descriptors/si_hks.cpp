@@ -1,3 +1,5 @@
+#include "descriptors/si_hks.h"
+
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -114,6 +116,13 @@ RowMatrix si_hks(const Eigenbasis& basis, double area, std::span<const int32_t> 
     describe(steps, basis, scale, vertices.subspan(begin, end - begin), &result(begin, 0));
   });
   return result;
+}
+
+DescriptorKind si_hks_descriptor() {
+  return {"si-hks", si_hks_dimension,
+          [](const DescribedSurface& surface, std::span<const int32_t> vertices, const Execution& execution) {
+            return si_hks(surface.basis, surface.operators.area, vertices, execution);
+          }};
 }
 
 }  // namespace focal

@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numeric>
-#include <queue>
 
 #include "base/aligned_array.h"
 #include "base/error.h"
@@ -17,26 +14,6 @@ constexpr int lanes = HeatMethod::lanes;
 
 // Heat falls off like exp(-d / sqrt(t)); a double holds about exp(-700).
 constexpr double representable_decay = 650;
-
-// An upper bound of the largest distance: twice the farthest edge path from one vertex (Dijkstra over L's graph).
-double diameter_bound(const TriangleMesh& mesh, const SparseMatrix& L) {
-  std::vector<double> distance(mesh.vertex_count(), std::numeric_limits<double>::infinity());
-  using Entry = std::pair<double, int32_t>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-  queue.emplace(distance[0] = 0, 0);
-  double farthest = 0;
-  while (!queue.empty()) {
-    const auto [d, v] = queue.top();
-    queue.pop();
-    if (d > distance[v]) continue;
-    farthest = d;
-    for (SparseMatrix::InnerIterator it(L, v); it; ++it) {
-      const double next = d + (mesh.positions.row(v) - mesh.positions.row(it.row())).norm();
-      if (next < distance[it.row()]) queue.emplace(distance[it.row()] = next, static_cast<int32_t>(it.row()));
-    }
-  }
-  return 2 * farthest;
-}
 
 SparseMatrix plus_diagonal(SparseMatrix A, const Vector& diagonal) {
   for (int32_t i = 0; i < A.rows(); ++i) A.coeffRef(i, i) += diagonal[i];
@@ -94,7 +71,7 @@ FOCAL_MULTIVERSION(void add_faces_signed(const Faces& faces, const double* heat,
 
 HeatMethod::HeatMethod(const TriangleMesh& mesh, const Operators& operators, const Execution& execution,
                        double time_factor, bool keep_negative_heat)
-    : keep_negative_heat_(keep_negative_heat) {
+    : Distance(mesh), keep_negative_heat_(keep_negative_heat) {
   execution.check_cancelled();
   const auto symbolic = std::make_shared<const SymbolicFactor>(analyse_pattern(operators.L));
   parallel_for(execution, 2, [&](int64_t part) {
@@ -107,7 +84,7 @@ HeatMethod::HeatMethod(const TriangleMesh& mesh, const Operators& operators, con
     }
   });
   execution.check_cancelled();
-  sort_faces(mesh, operators);
+  sort_faces(operators);
 }
 
 void HeatMethod::choose_time(const TriangleMesh& mesh, const Operators& operators, double time_factor) {
@@ -118,11 +95,10 @@ void HeatMethod::choose_time(const TriangleMesh& mesh, const Operators& operator
   time_ = std::pow(std::max(step, smallest), 2);
 }
 
-void HeatMethod::sort_faces(const TriangleMesh& mesh, const Operators& operators) {
+void HeatMethod::sort_faces(const Operators& operators) {
   const auto& permutation = heat_.permutation();
   const MatrixX3i& triangles = operators.triangles;
   const auto m = static_cast<int32_t>(triangles.rows());
-  positions_ = mesh.positions, triangles_ = mesh.triangles;
   faces_.resize(m, 3);
   face_coefficient_.resize(m, 4);
   std::vector<std::pair<int32_t, int32_t>> order(m);  // by smallest permuted corner
@@ -141,11 +117,14 @@ void HeatMethod::sort_faces(const TriangleMesh& mesh, const Operators& operators
   }
 }
 
-void HeatMethod::solve_block(std::span<const Source> sources, double* heat, float* distance,
-                             float* out) const {
+void HeatMethod::solve_block(std::span<const Source> sources, float* out, const Execution&) const {
   const int32_t n = vertex_count();
   const size_t size = static_cast<size_t>(n) * lanes;
   const auto& row = heat_.permutation();
+  const AlignedArray<double> heat_values(size);
+  const AlignedArray<float> poisson_values(size);
+  double* heat = heat_values.data();
+  float* distance = poisson_values.data();
   std::fill(heat, heat + size, 0.0);
   for (int j = 0; j < lanes; ++j) {
     const Source& source = sources[std::min<size_t>(j, sources.size() - 1)];  // unused lanes repeat the last
@@ -176,65 +155,16 @@ void HeatMethod::solve_block(std::span<const Source> sources, double* heat, floa
   }
 }
 
-void HeatMethod::run(std::span<const Source> sources, const Execution& execution,
-                     const BlockSink& sink) const {
-  const auto count = static_cast<int64_t>(sources.size());
-  const size_t size = static_cast<size_t>(vertex_count()) * lanes;
-  parallel_for(execution, (count + lanes - 1) / lanes, [&](int64_t block) {
-    AlignedArray<double> heat(size);
-    AlignedArray<float> distance(size), out(size);
-    const int64_t first = block * lanes;
-    const auto used = static_cast<int32_t>(std::min<int64_t>(lanes, count - first));
-    solve_block(sources.subspan(first, used), heat.data(), distance.data(), out.data());
-    sink(first, used, out.data());
-  });
+const char* HeatMethod::warning() const {
+  return time_was_raised_ ? "the mesh is so fine that the time step of the heat method was raised" : nullptr;
 }
 
-void HeatMethod::for_each_block(std::span<const SurfacePoint> points, const Execution& execution,
-                                const BlockSink& sink) const {
-  std::vector<Source> sources(points.size());
-  for (size_t s = 0; s < points.size(); ++s) {
-    const auto& weight = points[s].barycentric;
-    const auto corner = [&](int i) { return positions_.row(triangles_(points[s].triangle, i)); };
-    const Eigen::RowVector3d place = weight[0] * corner(0) + weight[1] * corner(1) + weight[2] * corner(2);
-    for (int i = 0; i < 3; ++i) {
-      sources[s].vertex[i] = triangles_(points[s].triangle, i);
-      sources[s].weight[i] = weight[i];
-      sources[s].corner_distance += static_cast<float>(weight[i] * (corner(i) - place).norm());
-    }
-  }
-  run(sources, execution, sink);
-}
-
-void HeatMethod::for_each_block(std::span<const int32_t> vertices, const Execution& execution,
-                                const BlockSink& sink) const {
-  std::vector<Source> sources(vertices.size());
-  for (size_t s = 0; s < vertices.size(); ++s)
-    sources[s] = {{vertices[s], vertices[s], vertices[s]}, {1, 0, 0}, 0};
-  run(sources, execution, sink);
-}
-
-namespace {
-
-HeatMethod::BlockSink into_rows(RowMatrixf& rows) {
-  return [&rows](int64_t first, int32_t count, const float* distances) {
-    for (Eigen::Index v = 0; v < rows.cols(); ++v)
-      for (int32_t j = 0; j < count; ++j) rows(first + j, v) = distances[v * lanes + j];
-  };
-}
-
-}  // namespace
-
-RowMatrixf HeatMethod::distances(std::span<const SurfacePoint> sources, const Execution& execution) const {
-  RowMatrixf result(sources.size(), vertex_count());
-  for_each_block(sources, execution, into_rows(result));
-  return result;
-}
-
-RowMatrixf HeatMethod::distances(std::span<const int32_t> source_vertices, const Execution& execution) const {
-  RowMatrixf result(source_vertices.size(), vertex_count());
-  for_each_block(source_vertices, execution, into_rows(result));
-  return result;
+DistanceKind heat_distance() {
+  return {"heat", true, true,
+          [](const MeasuredSurface& surface, const Execution& execution) -> std::shared_ptr<const Distance> {
+            return std::make_shared<HeatMethod>(surface.mesh, surface.operators, execution, 1,
+                                                surface.to_the_letter);
+          }};
 }
 
 }  // namespace focal

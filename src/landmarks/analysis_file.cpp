@@ -5,11 +5,12 @@
 #include "base/archive.h"
 #include "base/crc32c.h"
 #include "descriptors/descriptor.h"
+#include "landmarks/method_section.h"
 
 namespace focal {
 namespace {
 
-constexpr ArchiveKind kind{"FOCALANA", "analysis", 1, 0};
+constexpr ArchiveKind kind{"FOCALANA", "analysis", 1, 1};
 constexpr int32_t most = std::numeric_limits<int32_t>::max();
 constexpr double farthest = 1e9;  // coordinates of a surface of area 1
 
@@ -68,15 +69,16 @@ std::vector<std::byte> samples_section(const SurfaceAnalysis& analysis) {
 
 void read_samples(ByteReader in, SurfaceAnalysis& analysis) {
   const int32_t n = analysis.surface().vertex_count();
-  const int32_t count = in.count("sample count", 32 + 32 * si_hks_dimension, 1, n);
+  const int32_t dimension = descriptor_kinds()[analysis.params.descriptor].dimension;
+  const int32_t count = in.count("sample count", 32 + 32 * static_cast<uint64_t>(dimension), 1, n);
   for (int32_t i = 0; i < count; ++i) analysis.samples.push_back(in.i32("sample", 0, n - 1));
-  const auto values = in.f32s("descriptor", static_cast<size_t>(count) * si_hks_dimension, -1e9F, 1e9F);
-  analysis.descriptors = Eigen::Map<const RowMatrixf>(values.data(), count, si_hks_dimension);
+  const auto values = in.f32s("descriptor", static_cast<size_t>(count) * dimension, -1e9F, 1e9F);
+  analysis.descriptors = Eigen::Map<const RowMatrixf>(values.data(), count, dimension);
   if (in.u8("distances kept")) {
-    constexpr int lanes = HeatMethod::lanes;
+    constexpr int lanes = Distance::lanes;
     const size_t entries = static_cast<size_t>((count + lanes - 1) / lanes) * lanes * static_cast<size_t>(n);
     const auto bytes = in.raw("distances", 2 * entries);
-    analysis.distances = {analysis.heat.distance_bound() / 65535, n, {}};
+    analysis.distances = {analysis.metric->distance_bound() / 65535, n, {}};
     analysis.distances.steps.resize(entries);
     for (size_t i = 0; i < entries; ++i)
       analysis.distances.steps[i] = static_cast<uint16_t>(std::to_integer<unsigned>(bytes[2 * i]) |
@@ -102,10 +104,12 @@ RowMatrixf read_eigenfunctions(ByteReader in, int32_t vertices) {
 }  // namespace
 
 std::vector<std::byte> serialise(const SurfaceAnalysis& analysis) {
-  const ArchiveSection sections[] = {{"INFO", info_section(analysis)},
-                                     {"PRXY", proxy_section(analysis.proxy)},
-                                     {"EIGN", eigenfunctions_section(analysis.eigenfunctions)},
-                                     {"SMPL", samples_section(analysis)}};
+  std::vector<ArchiveSection> sections = {{"INFO", info_section(analysis)},
+                                          {"PRXY", proxy_section(analysis.proxy)},
+                                          {"EIGN", eigenfunctions_section(analysis.eigenfunctions)},
+                                          {"SMPL", samples_section(analysis)}};
+  if (const Method method{analysis.params.descriptor, analysis.params.distance}; !method.is_first())
+    sections.push_back({method_section, write_method(method)});
   return write_archive(kind, sections);
 }
 
@@ -121,6 +125,8 @@ SurfaceAnalysis parse_analysis(std::span<const std::byte> file, std::shared_ptr<
   analysis.params.to_the_letter = info.u8("to the letter") != 0;
   const int32_t filled_holes = info.i32("filled holes", 0, most);
   info.expect_end();
+  const Method method = read_method(archive);
+  analysis.params.descriptor = method.descriptor, analysis.params.distance = method.distance;
   analysis.proxy = read_proxy(archive.section("PRXY"), std::move(mesh));
   analysis.proxy.filled_holes = filled_holes;
   make_solvers(analysis, execution);

@@ -93,8 +93,8 @@ std::vector<CarriedMarks> carried_from(const LandmarkModel& model, const Surface
     trusted.push_back(static_cast<int32_t>(l)), starts.push_back(placement.point[l]);
   }
   if (model.atlas.empty() || trusted.size() < 3) return {};
-  return carry_marks(model.atlas, model.reach, analysis, trusted, analysis.heat.distances(starts, execution),
-                     params, execution);
+  return carry_marks(model.atlas, model.reach, analysis, trusted,
+                     analysis.metric->distances(starts, execution), params, execution);
 }
 
 float mean_residual(const std::vector<CarriedMarks>& carried) {

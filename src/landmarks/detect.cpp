@@ -96,10 +96,17 @@ void check_fixed(const DetectParams& params, const LandmarkModel& model) {
 
 bool suits(const AnalysisParams& made, const AnalysisParams& wanted) {
   return made.proxy_vertices == wanted.proxy_vertices && made.eigenpair_count == wanted.eigenpair_count &&
-         made.to_the_letter == wanted.to_the_letter;
+         made.to_the_letter == wanted.to_the_letter && made.descriptor == wanted.descriptor &&
+         made.distance == wanted.distance;
 }
 
 }  // namespace
+
+void check_suits(const SurfaceAnalysis& analysis, const LandmarkModel& model) {
+  if (!suits(analysis.params, analysis_params_of(model.params)))
+    throw Error(Status::invalid_argument, "the analysis was made with other parameters than this model's",
+                "analyse the mesh once more, by the parameters of this model");
+}
 
 std::vector<int32_t> placed_landmarks(const Detection& detection) {
   std::vector<int32_t> placed;
@@ -144,9 +151,7 @@ Detection detect(std::shared_ptr<const LandmarkModel> model, const SurfaceAnalys
                  const DetectParams& params, const Execution& execution) {
   validate(params);
   check_fixed(params, *model);
-  if (!suits(analysis.params, analysis_params_of(model->params)))
-    throw Error(Status::invalid_argument, "the analysis was made with other parameters than this model's",
-                "analyse the mesh once more, by the parameters of this model");
+  check_suits(analysis, *model);
   Stopwatch whole;
   Detection result;
   const bool paper = model->params.preset == Preset::paper;
@@ -165,8 +170,7 @@ Detection detect(std::shared_ptr<const LandmarkModel> model, const SurfaceAnalys
       result.places[l].triangle = -1;
   result.seconds.refine += mapping.lap();
   result.category_fit = judgement.category_fit;
-  if (analysis.heat.time_was_raised())
-    result.warnings.push_back("the mesh is so fine that the time step of the heat method was raised");
+  if (const char* warning = analysis.metric->warning()) result.warnings.emplace_back(warning);
   if (!paper && !analysis.proxy.full->is_oriented)
     result.warnings.push_back("left and right were told apart by distances alone, not by handedness");
   if (const int32_t holes = analysis.proxy.filled_holes)

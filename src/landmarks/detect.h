@@ -57,8 +57,10 @@ std::vector<SurfacePoint> places_of(const Detection& detection, const std::vecto
 Detection detect(std::shared_ptr<const LandmarkModel> model, std::shared_ptr<const PreparedMesh> mesh,
                  const DetectParams& params, const Execution& execution);
 
-// For many models on one mesh: the analysis is made once, by parameters that suit them all.
 // Throws invalid_argument when the analysis was made with other parameters than the model's.
+void check_suits(const SurfaceAnalysis& analysis, const LandmarkModel& model);
+
+// For many models on one mesh: the analysis is made once, by parameters that suit them all (see check_suits).
 SurfaceAnalysis analyse_for(const TrainParams& trained, std::shared_ptr<const PreparedMesh> mesh,
                             const DetectParams& params, const Execution& execution);
 Detection detect(std::shared_ptr<const LandmarkModel> model, const SurfaceAnalysis& analysis,

@@ -11,7 +11,7 @@
 namespace focal {
 namespace {
 
-constexpr uint32_t last_feature = si_hks_dimension - 1;
+constexpr uint32_t last_feature = most_components - 1;
 constexpr float any_threshold = 1e30F;
 
 // Node types (1: leaf), features and children by the breadth-first rule.
@@ -54,14 +54,14 @@ void write_tree(const RegressionTree& tree, LeafKind leaves, int32_t sample_coun
 }
 
 // Fills feature, threshold and child; returns the number of leaves.
-int32_t read_shape(ByteReader& in, RegressionTree& tree) {
+int32_t read_shape(ByteReader& in, int32_t components, RegressionTree& tree) {
   const int32_t nodes = in.count("node count", 16, 1);  // a node with its share of what follows takes more
   const std::vector<uint32_t> is_leaf = in.packed("node kind", static_cast<size_t>(nodes), 1, 1);
   const auto leaves = static_cast<int32_t>(std::count(is_leaf.begin(), is_leaf.end(), 1U));
   const int32_t inner_nodes = nodes - leaves;
   if (leaves != inner_nodes + 1) in.fail("the leaves and nodes of a tree do not match");
-  const auto features =
-      in.packed("feature", static_cast<size_t>(inner_nodes), bits_for(last_feature), last_feature);
+  const auto features = in.packed("feature", static_cast<size_t>(inner_nodes), bits_for(last_feature),
+                                  static_cast<uint32_t>(components - 1));
   const auto thresholds =
       in.f32s("threshold", static_cast<size_t>(inner_nodes), -any_threshold, any_threshold);
   int32_t inner = 0, leaf = 0;
@@ -102,13 +102,14 @@ void write_forest(const RegressionForest& forest, int32_t sample_count, ByteWrit
   for (const RegressionTree& tree : forest.trees) write_tree(tree, leaves, sample_count, out);
 }
 
-RegressionForest read_forest(ByteReader& in, LeafKind leaves, int32_t tree_count, int32_t sample_count) {
+RegressionForest read_forest(ByteReader& in, LeafKind leaves, int32_t tree_count, int32_t sample_count,
+                             int32_t components) {
   if (in.u8("leaf kind") != static_cast<uint8_t>(leaves)) in.fail("the leaves are not those of the preset");
   RegressionForest forest;
   const int32_t count = in.count("tree count", 32, tree_count, tree_count);
   for (int32_t t = 0; t < count; ++t) {
     RegressionTree tree;
-    const int32_t leaf_count = read_shape(in, tree);
+    const int32_t leaf_count = read_shape(in, components, tree);
     if (leaves == LeafKind::samples)
       read_leaf_samples(in, leaf_count, sample_count, tree);
     else

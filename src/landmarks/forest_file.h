@@ -10,6 +10,8 @@ enum class LeafKind : uint8_t { samples = 0, means = 1 };
 // Every tree must lie breadth first, its leaves numbered in that order, as tree_builder makes it: children
 // then need no numbers in the file. sample_count: one more than the largest sample number.
 void write_forest(const RegressionForest& forest, int32_t sample_count, ByteWriter& out);
-RegressionForest read_forest(ByteReader& in, LeafKind leaves, int32_t tree_count, int32_t sample_count);
+// components: of the descriptor that the trees test.
+RegressionForest read_forest(ByteReader& in, LeafKind leaves, int32_t tree_count, int32_t sample_count,
+                             int32_t components);
 
 }  // namespace focal

@@ -7,12 +7,14 @@
 
 #include "base/archive.h"
 #include "base/error.h"
+#include "descriptors/descriptor.h"
 #include "landmarks/forest_file.h"
+#include "landmarks/method_section.h"
 
 namespace focal {
 namespace {
 
-constexpr ArchiveKind kind{"FOCALMDL", "model", 1, 0};
+constexpr ArchiveKind kind{"FOCALMDL", "model", 1, 1};
 constexpr int32_t landmark_limit = 4096, name_limit = 4096, joint_limit = 4096;
 constexpr int32_t most = std::numeric_limits<int32_t>::max();
 constexpr float any_number = 1e9F;  // of learned coefficients: finite, and no sum of a few overflows
@@ -127,7 +129,8 @@ void read_forests(ByteReader in, LandmarkModel& model) {
   const LeafKind leaves = default_preset ? LeafKind::samples : LeafKind::means;
   const auto samples = static_cast<int32_t>(model.targets.rows());
   for (int32_t f = 0; f < count; ++f)
-    model.forests.push_back(read_forest(in, leaves, model.params.tree_count, samples));
+    model.forests.push_back(read_forest(in, leaves, model.params.tree_count, samples,
+                                        descriptor_kinds()[model.params.descriptor].dimension));
   in.expect_end();
 }
 
@@ -341,12 +344,16 @@ std::vector<std::byte> serialise(const LandmarkModel& model) {
     section.write(model, out);
     written.push_back({section.name, out.take()});
   }
+  if (const Method method{model.params.descriptor, model.params.distance}; !method.is_first())
+    written.push_back({method_section, write_method(method)});
   return write_archive(kind, written);
 }
 
 LandmarkModel parse_model(std::span<const std::byte> file) {
   const Archive archive(kind, file);
   LandmarkModel model;
+  const Method method = read_method(archive);
+  model.params.descriptor = method.descriptor, model.params.distance = method.distance;
   for (const Section& section : sections)
     if (section.read != read_skeleton || archive.has(section.name))
       section.read(archive.section(section.name), model);

@@ -10,7 +10,7 @@
 namespace focal {
 namespace {
 
-constexpr int lanes = HeatMethod::lanes;
+constexpr int lanes = Distance::lanes;
 constexpr double mu = 5;                // Section 5: weight factor
 constexpr float neighbourhood = 0.02f;  // Section 5: radius over which votes are averaged
 
@@ -39,8 +39,8 @@ void largest_of(const float* distances, int32_t n, float* largest) {
 RowMatrixf normalised_targets(const MarkedShape& shape, const SurfaceAnalysis& analysis,
                               const Execution& execution) {
   RowMatrixf targets = RowMatrixf::Constant(analysis.samples.size(), shape.marks.size(), NAN);
-  const int32_t n = analysis.heat.vertex_count();
-  analysis.heat.for_each_block(
+  const int32_t n = analysis.metric->vertex_count();
+  analysis.metric->for_each_block(
       analysis.samples, execution, [&](int64_t first, int32_t count, const float* distances) {
         float largest[lanes];
         largest_of(distances, n, largest);
@@ -98,7 +98,7 @@ struct TwoVotes {
 };
 
 TwoVotes cast_votes(const SurfaceAnalysis& analysis, const RowMatrixf radii[2], const Execution& execution) {
-  const int32_t n = analysis.heat.vertex_count();
+  const int32_t n = analysis.metric->vertex_count();
   const auto edges = edges_of(analysis.surface());
   constexpr int32_t parts = 8;  // fixed sums, added in order: the same bits for any number of threads
   TwoVotes total;
@@ -107,21 +107,21 @@ TwoVotes cast_votes(const SurfaceAnalysis& analysis, const RowMatrixf radii[2], 
   for (int32_t from = 0; from < samples; from += parts * lanes) {
     const int32_t batch = std::min(parts * lanes, samples - from);
     std::vector<TwoVotes> partial(parts);
-    analysis.heat.for_each_block(std::span(analysis.samples).subspan(from, batch), execution,
-                                 [&](int64_t first, int32_t count, const float* distances) {
-                                   float largest[lanes];
-                                   largest_of(distances, n, largest);
-                                   std::vector<float> scaled(static_cast<size_t>(n) * lanes);
-                                   for (int64_t v = 0; v < n; ++v)
-                                     for (int j = 0; j < lanes; ++j)
-                                       scaled[v * lanes + j] = distances[v * lanes + j] / largest[j];
-                                   for (int s = 0; s < 2; ++s) {
-                                     RowMatrixf& votes = partial[first / lanes].sign[s];
-                                     votes = RowMatrixf::Zero(n, radii[s].cols());
-                                     add_isoline_votes(radii[s].middleRows(from + first, count),
-                                                       scaled.data(), count, edges, mu, votes);
-                                   }
-                                 });
+    analysis.metric->for_each_block(std::span(analysis.samples).subspan(from, batch), execution,
+                                    [&](int64_t first, int32_t count, const float* distances) {
+                                      float largest[lanes];
+                                      largest_of(distances, n, largest);
+                                      std::vector<float> scaled(static_cast<size_t>(n) * lanes);
+                                      for (int64_t v = 0; v < n; ++v)
+                                        for (int j = 0; j < lanes; ++j)
+                                          scaled[v * lanes + j] = distances[v * lanes + j] / largest[j];
+                                      for (int s = 0; s < 2; ++s) {
+                                        RowMatrixf& votes = partial[first / lanes].sign[s];
+                                        votes = RowMatrixf::Zero(n, radii[s].cols());
+                                        add_isoline_votes(radii[s].middleRows(from + first, count),
+                                                          scaled.data(), count, edges, mu, votes);
+                                      }
+                                    });
     for (const TwoVotes& part : partial)
       for (int s = 0; s < 2; ++s)
         if (part.sign[s].size()) total.sign[s] += part.sign[s];
@@ -132,12 +132,12 @@ TwoVotes cast_votes(const SurfaceAnalysis& analysis, const RowMatrixf radii[2], 
 
 // Mean vote over the vertices within 0.02 of each vertex' own largest distance (Section 5).
 TwoVotes average_nearby(const TwoVotes& votes, const SurfaceAnalysis& analysis, const Execution& execution) {
-  const int32_t n = analysis.heat.vertex_count();
+  const int32_t n = analysis.metric->vertex_count();
   std::vector<int32_t> all(n);
   for (int32_t v = 0; v < n; ++v) all[v] = v;
   TwoVotes result;
   for (auto& mean : result.sign) mean = RowMatrixf::Zero(n, votes.sign[0].cols());
-  analysis.heat.for_each_block(all, execution, [&](int64_t first, int32_t count, const float* distances) {
+  analysis.metric->for_each_block(all, execution, [&](int64_t first, int32_t count, const float* distances) {
     float largest[lanes];
     largest_of(distances, n, largest);
     int32_t near[lanes] = {};
@@ -222,6 +222,21 @@ Placement place_landmarks_paper(const LandmarkModel& model, const SurfaceAnalysi
   }
   result.point = points_at(analysis.surface(), result.vertex);
   return result;
+}
+
+Regression regress_paper(const LandmarkModel& model, const SurfaceAnalysis& analysis, int32_t landmark,
+                         const SurfacePoint& truth, const Execution& execution) {
+  const MarkedShape marked{analysis.proxy.coarse, {truth}};
+  Regression best{{}, normalised_targets(marked, analysis, execution).col(0)};
+  const Vector side = signed_sides(symmetry_plane(analysis.surface(), analysis.params.seed, execution),
+                                   analysis.surface().positions);
+  for (const double sign : {1.0, -1.0}) {
+    const RowMatrixf descriptors = with_sides(analysis.descriptors, analysis.samples, side, sign);
+    Eigen::VectorXf regressed = predict_means(model.forests[landmark], descriptors, execution);
+    if (sign > 0 || (regressed - best.truth).squaredNorm() < (best.regressed - best.truth).squaredNorm())
+      best.regressed = std::move(regressed);
+  }
+  return best;
 }
 
 }  // namespace focal

@@ -19,4 +19,12 @@ Placement place_landmarks_paper(const LandmarkModel& model, const SurfaceAnalysi
                                 const DetectParams& params, const Execution& execution,
                                 StageSeconds& seconds);
 
+// For each sample of the analysis the distance to a landmark by its forest, and the true one to a point of the analysed
+// surface, both over the sample's largest distance. Of the two signs of the symmetry plane's normal the one that fits better.
+struct Regression {
+  Eigen::VectorXf regressed, truth;
+};
+Regression regress_paper(const LandmarkModel& model, const SurfaceAnalysis& analysis, int32_t landmark,
+                         const SurfacePoint& truth, const Execution& execution);
+
 }  // namespace focal

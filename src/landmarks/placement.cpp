@@ -27,7 +27,7 @@ constexpr double residual_weight = 800;
 RowMatrixf cast_votes(const LandmarkModel& model, const SurfaceAnalysis& analysis, int32_t count,
                       const Execution& execution, StageSeconds& seconds) {
   const auto L = static_cast<int32_t>(model.landmark_names.size());
-  RowMatrixf votes = RowMatrixf::Zero(analysis.heat.vertex_count(), VoteTables::padded(L));
+  RowMatrixf votes = RowMatrixf::Zero(analysis.metric->vertex_count(), VoteTables::padded(L));
   Stopwatch watch;
   const LeafVotes leaf_votes(model, analysis.descriptors.topRows(count), execution);
   seconds.forest += watch.lap();
@@ -68,7 +68,7 @@ ConstellationCandidates make_candidates(const std::vector<std::vector<int32_t>>&
     }
   }
   candidates.start.push_back(static_cast<int32_t>(vertices.size()));
-  const RowMatrixf fields = analysis.heat.distances(vertices, execution);
+  const RowMatrixf fields = analysis.metric->distances(vertices, execution);
   candidates.distance.resize(vertices.size(), vertices.size());
   for (size_t a = 0; a < vertices.size(); ++a)
     for (size_t b = 0; b < vertices.size(); ++b)

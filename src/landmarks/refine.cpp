@@ -82,7 +82,7 @@ void refine_placement(const ConstellationStatistics& statistics, const SurfaceAn
   if (placed.size() < 2) return;
   const MatrixX3 normals = area_normals(analysis.surface());
   for (int32_t round = 0; round < rounds; ++round) {
-    const RowMatrixf fields = analysis.heat.distances(vertex, execution);
+    const RowMatrixf fields = analysis.metric->distances(vertex, execution);
     parallel_for(execution, static_cast<int64_t>(placed.size()), [&](int64_t p) {
       if (placement.is_fixed(placed[p])) return;
       const Region region = region_of(statistics, placement, fields, placed, static_cast<size_t>(p));

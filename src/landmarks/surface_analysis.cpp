@@ -11,7 +11,7 @@
 namespace focal {
 namespace {
 
-constexpr int lanes = HeatMethod::lanes;
+constexpr int lanes = Distance::lanes;
 constexpr int64_t kept_entries = int64_t{1} << 25;     // 64 MB
 constexpr int64_t portion_entries = int64_t{1} << 24;  // of a portion that is computed anew
 
@@ -25,12 +25,12 @@ int32_t sample_count(int32_t vertices, const AnalysisParams& params) {
 SampleDistances compute_distances(const SurfaceAnalysis& analysis, int32_t first, int32_t used,
                                   const Execution& execution) {
   SampleDistances result;
-  result.vertices = analysis.heat.vertex_count();
-  result.step = analysis.heat.distance_bound() / 65535;
+  result.vertices = analysis.metric->vertex_count();
+  result.step = analysis.metric->distance_bound() / 65535;
   const size_t block = static_cast<size_t>(result.vertices) * lanes;
   result.steps.resize((used + lanes - 1) / lanes * block);
   const auto to_steps = static_cast<float>(1 / result.step);
-  analysis.heat.for_each_block(
+  analysis.metric->for_each_block(
       std::span(analysis.samples).subspan(first, used), execution,
       [&](int64_t at, int32_t, const float* distances) {
         uint16_t* out = &result.steps[at / lanes * block];
@@ -48,6 +48,7 @@ AnalysisParams analysis_params_of(const TrainParams& trained) {
   params.proxy_vertices = trained.proxy_vertices;
   params.eigenpair_count = trained.eigenpair_count;
   params.to_the_letter = trained.preset == Preset::paper;
+  params.descriptor = trained.descriptor, params.distance = trained.distance;
   return params;
 }
 
@@ -68,13 +69,15 @@ SurfaceAnalysis analyse_surface(std::shared_ptr<const PreparedMesh> mesh, const 
   eigen.tolerance =
       1e-7;  // 1e-5 serves the signatures; maps turn what is left of the error into whole vertices
   const Eigenbasis basis =
-      eigenbasis(result.operators.L, result.operators.mass, eigen, execution, result.heat.symbolic());
+      eigenbasis(result.operators.L, result.operators.mass, eigen, execution, result.metric->symbolic());
   result.eigenfunctions = basis.Phi.cast<float>();
   result.spectrum_seconds = watch.lap();
   Random random(params.seed, params.stream);
   const int32_t n = result.surface().vertex_count(), count = sample_count(n, params);
   result.samples = sample_without_replacement(random, n, count);
-  result.descriptors = si_hks(basis, result.operators.area, result.samples, execution).cast<float>();
+  result.descriptors = descriptor_kinds()[params.descriptor]
+                           .describe({result.surface(), result.operators, basis}, result.samples, execution)
+                           .cast<float>();
   result.descriptor_seconds = watch.lap();
   return result;
 }
@@ -83,12 +86,13 @@ void make_solvers(SurfaceAnalysis& analysis, const Execution& execution) {
   const bool to_the_letter = analysis.params.to_the_letter;
   analysis.operators = make_operators(analysis.surface(), analysis.proxy.coarse->bridges, !to_the_letter);
   execution.check_cancelled();
-  analysis.heat = HeatMethod(analysis.surface(), analysis.operators, execution, 1, to_the_letter);
+  analysis.metric = distance_kinds()[analysis.params.distance].make(
+      {analysis.surface(), analysis.proxy.coarse->bridges, analysis.operators, to_the_letter}, execution);
 }
 
 void keep_distances(SurfaceAnalysis& analysis, const Execution& execution) {
   const auto samples = static_cast<int32_t>(analysis.samples.size());
-  if (!analysis.distances.steps.empty() || int64_t{samples} * analysis.heat.vertex_count() > kept_entries)
+  if (!analysis.distances.steps.empty() || int64_t{samples} * analysis.metric->vertex_count() > kept_entries)
     return;
   Stopwatch watch;
   analysis.distances = compute_distances(analysis, 0, samples, execution);
@@ -99,7 +103,7 @@ void for_each_portion(const SurfaceAnalysis& analysis, int32_t count, const Exec
                       const DistanceSink& sink) {
   if (!analysis.distances.steps.empty()) return sink(0, count, analysis.distances);
   // Fixed by the mesh alone, so that memory and results do not depend on the threads.
-  const int64_t blocks = std::max<int64_t>(portion_entries / lanes / analysis.heat.vertex_count(), 4);
+  const int64_t blocks = std::max<int64_t>(portion_entries / lanes / analysis.metric->vertex_count(), 4);
   for (int32_t first = 0; first < count; first += static_cast<int32_t>(blocks) * lanes) {
     const int32_t used = std::min(static_cast<int32_t>(blocks) * lanes, count - first);
     sink(first, used, compute_distances(analysis, first, used, execution));

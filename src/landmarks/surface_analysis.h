@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "geodesics/heat_method.h"
+#include "geodesics/distance.h"
 #include "landmarks/params.h"
 #include "mesh/proxy.h"
 #include "operators/operators.h"
@@ -22,6 +22,7 @@ struct AnalysisParams {
   // Preset `paper`: the method to the letter, without intrinsic Delaunay triangulation and with negative heat (see
   // HeatMethod).
   bool to_the_letter = false;
+  int32_t descriptor = 0, distance = 0;  // as in TrainParams
 };
 
 // As a model with these parameters needs it; sampling is the caller's to set.
@@ -39,9 +40,9 @@ struct SurfaceAnalysis {
   AnalysisParams params;
   Proxy proxy;
   Operators operators;  // of surface(), like all below
-  HeatMethod heat;
+  std::shared_ptr<const Distance> metric;
   std::vector<int32_t> samples;  // vertices, in random order: any beginning is a random sample too
-  RowMatrixf descriptors;        // samples x 96, SI-HKS
+  RowMatrixf descriptors;        // samples x components
   RowMatrixf eigenfunctions;     // vertices x eigenpairs
   SampleDistances distances;     // kept where they are small; else empty, and computed anew for each model
   double proxy_seconds = 0, spectrum_seconds = 0, descriptor_seconds = 0, geodesic_seconds = 0;
@@ -52,7 +53,7 @@ struct SurfaceAnalysis {
 SurfaceAnalysis analyse_surface(std::shared_ptr<const PreparedMesh> mesh, const AnalysisParams& params,
                                 const Execution& execution);
 
-// Operators and heat of a proxy that is there already.
+// Operators and metric of a proxy that is there already.
 void make_solvers(SurfaceAnalysis& analysis, const Execution& execution);
 
 // Computes and keeps the distances of all samples, when they take less than about 64 MB.

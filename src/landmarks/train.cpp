@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "descriptors/descriptor.h"
 #include "landmarks/atlas.h"
 #include "landmarks/confidence.h"
 #include "landmarks/model_parts.h"
@@ -41,6 +42,20 @@ struct Lessons {
   std::vector<Lesson> spoiled;
 };
 
+void validate_method(const TrainParams& params) {
+  const auto is_listed = [](int32_t number, const auto& kinds) {
+    return number >= 0 && number < static_cast<int32_t>(kinds.size());
+  };
+  if (!is_listed(params.descriptor, descriptor_kinds()) || !is_listed(params.distance, distance_kinds()))
+    throw Error(Status::invalid_argument, "there is no such descriptor or distance", "start from a preset");
+  const DistanceKind& distance = distance_kinds()[params.distance];
+  if (params.preset == Preset::default_preset && !distance.is_geodesic)
+    throw Error(Status::unsupported,
+                "preset default reckons with lengths along the surface: the distance " +
+                    std::string(distance.name) + " is none",
+                "choose a geodesic distance, or preset paper");
+}
+
 void validate(const TrainingSet& set, const TrainParams& params) {
   const auto L = set.landmark_names.size();
   if (L == 0)
@@ -53,6 +68,7 @@ void validate(const TrainingSet& set, const TrainParams& params) {
   if (params.preset == Preset::paper && params.proxy_vertices != 0)
     throw Error(Status::invalid_argument, "preset paper analyses a surface as it is, without a proxy",
                 "set proxy_vertices to 0");
+  validate_method(params);
   if (set.shapes.size() < 2)
     throw Error(Status::too_few_shapes,
                 "the training set has " + std::to_string(set.shapes.size()) + " mesh" +
@@ -88,7 +104,7 @@ LearnedShape learn_shape(const MarkedShape& shape, const SurfaceAnalysis& analys
   points = to_coarse(analysis.proxy, points);
   result.points.resize(L);
   for (size_t p = 0; p < points.size(); ++p) result.points[landmark[p]] = points[p];
-  result.fields = analysis.heat.distances(points, execution);
+  result.fields = analysis.metric->distances(points, execution);
   const RowMatrixf& fields = result.fields;
   result.targets = RowMatrixf::Constant(analysis.samples.size(), L, NAN);
   auto& constellation = result.constellation;

@@ -46,7 +46,7 @@ std::vector<ShapeMap> maps_of(const Detection& detection, const Execution& execu
   const CarryParams params{.map = {.first = 20, .last = 120, .step = 8}, .exact_points = true};
   auto maps =
       map_shapes(model.atlas, model.reach, analysis, landmark,
-                 analysis.heat.distances(places_of(detection, landmark), execution), params, execution);
+                 analysis.metric->distances(places_of(detection, landmark), execution), params, execution);
   std::erase_if(maps, [&](const ShapeMap& one) { return !model.atlas[one.shape].rig; });
   return maps;
 }

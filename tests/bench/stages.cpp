@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "descriptors/descriptor.h"
+#include "descriptors/si_hks.h"
 #include "landmarks/leaf_votes.h"
 #include "landmarks/train.h"
 

@@ -11,7 +11,7 @@
 
 #include "base/random.h"
 #include "base/stopwatch.h"
-#include "descriptors/descriptor.h"
+#include "descriptors/si_hks.h"
 #include "landmarks/leaf_votes.h"
 #include "placing.h"
 

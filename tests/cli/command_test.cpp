@@ -332,7 +332,8 @@ TEST_CASE("the same landmarks, to the bit, for one thread and two") {
 TEST_CASE("eval: keys, subset and limit") {
   const json report = focal_json("eval " + eggs().model() + " " + eggs().folder());
   Keys expected = kSummaryKeys;
-  expected.insert({"set", "model", "preset", "split", "quality", "meshes", "landmarks"});
+  expected.insert(
+      {"set", "model", "preset", "descriptor", "distance", "split", "quality", "meshes", "landmarks"});
   CHECK(keys_of(report) == expected);
   check_summary(report);
   REQUIRE(report["meshes"].size() == 2);
@@ -363,7 +364,7 @@ TEST_CASE("cross-validate: every mesh once, no mesh in both") {
   const json report =
       focal_json("cross-validate " + eggs().folder() + " --split all --folds 3 --eigenpairs 40 --trees 4");
   Keys expected = kSummaryKeys;
-  expected.insert({"set", "preset", "folds", "meshes", "landmarks"});
+  expected.insert({"set", "preset", "descriptor", "distance", "folds", "meshes", "landmarks"});
   CHECK(keys_of(report) == expected);
   check_summary(report);
   REQUIRE(report["meshes"].size() == 6);

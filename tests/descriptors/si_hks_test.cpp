@@ -7,7 +7,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "descriptors/descriptor.h"
+#include "descriptors/si_hks.h"
 #include "operators/operators.h"
 #include "surfaces.h"
 

@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -11,6 +12,8 @@
 #include "base/error.h"
 #include "base/random.h"
 #include "descriptors/descriptor.h"
+#include "descriptors/si_hks.h"
+#include "geodesics/distance.h"
 #include "landmarks/signed_archive.h"
 #include "landmarks/small_model.h"
 
@@ -39,6 +42,8 @@ void check_equal(const TrainParams& a, const TrainParams& b) {
   CHECK(a.sampling_rate == b.sampling_rate);
   CHECK(a.max_samples_per_shape == b.max_samples_per_shape);
   CHECK(a.seed == b.seed);
+  CHECK(a.descriptor == b.descriptor);
+  CHECK(a.distance == b.distance);
 }
 
 void check_equal(const LandmarkModel& a, const LandmarkModel& b) {
@@ -94,9 +99,18 @@ void walk(const LandmarkModel& model) {
     }
 }
 
+std::filesystem::path golden_path(const char* name) {
+  return std::filesystem::path(FOCAL_GOLDEN_FOLDER) / name;
+}
 std::filesystem::path golden_path(Preset preset) {
-  return std::filesystem::path(FOCAL_GOLDEN_FOLDER) /
-         (preset == Preset::paper ? "model_1_0_paper.focal" : "model_1_0_default.focal");
+  return golden_path(preset == Preset::paper ? "model_1_0_paper.focal" : "model_1_0_default.focal");
+}
+
+// Of format 1.1: a descriptor and a distance of its own.
+LandmarkModel small_model_of_method() {
+  LandmarkModel model = small_model(Preset::paper);
+  model.params.descriptor = 2, model.params.distance = 3;  // wks, commute-time
+  return model;
 }
 
 Bytes read_bytes(const std::filesystem::path& path) {
@@ -106,6 +120,7 @@ Bytes read_bytes(const std::filesystem::path& path) {
   return {bytes.begin(), bytes.end()};
 }
 
+constexpr std::byte wks_name[] = {std::byte('w'), std::byte('k'), std::byte('s')};
 constexpr Preset presets[] = {Preset::default_preset, Preset::paper};
 
 }  // namespace
@@ -123,13 +138,32 @@ TEST_CASE("golden models of format 1.0 are still read, and read the same") {
   }
 }
 
+TEST_CASE("a model keeps its descriptor and distance, by name; what this library does not have is refused") {
+  check_equal(parse_model(serialise(small_model_of_method())), small_model_of_method());
+  const Bytes golden = read_bytes(golden_path("model_1_1_method.focal"));
+  REQUIRE(golden.size() > 0);
+  check_equal(parse_model(golden), small_model_of_method());
+  Bytes file = serialise(small_model_of_method());
+  const auto wks = std::search(file.begin(), file.end(), std::begin(wks_name), std::end(wks_name));
+  REQUIRE(wks != file.end());
+  *wks = std::byte('x');
+  sign(file);
+  CHECK(status_of(file) == Status::unsupported);
+  for (size_t d = 0; d < descriptor_kinds().size(); ++d) {
+    LandmarkModel model = small_model(Preset::default_preset);
+    model.params.descriptor = static_cast<int32_t>(d);
+    CHECK(parse_model(serialise(model)).params.descriptor == static_cast<int32_t>(d));
+    for (auto& tree : model.forests[0].trees)
+      tree.feature[0] = descriptor_kinds()[d].dimension;  // one too far
+    CHECK(status_of(serialise(model)) == Status::invalid_file);
+  }
+}
+
 // focal_tests --no-skip --test-case="write the golden models" makes them; only ever for a new format version.
 TEST_CASE("write the golden models" * doctest::skip()) {
-  for (const Preset preset : presets) {
-    const Bytes file = serialise(small_model(preset));
-    std::ofstream(golden_path(preset), std::ios::binary)
-        .write(reinterpret_cast<const char*>(file.data()), static_cast<std::streamsize>(file.size()));
-  }
+  const Bytes file = serialise(small_model_of_method());
+  std::ofstream(golden_path("model_1_1_method.focal"), std::ios::binary)
+      .write(reinterpret_cast<const char*>(file.data()), static_cast<std::streamsize>(file.size()));
 }
 
 TEST_CASE("every flipped bit and every truncation of a model is noticed") {

@@ -98,6 +98,18 @@ class Training(Case):
         with self.assertRaisesRegex(TypeError, "focal.Preset"):
             focal.Model.train(training_set(count=2), preset=1.0)
 
+    def test_descriptors_and_distances(self):
+        self.assertEqual(focal.descriptors()[focal.Descriptor.SPIN_IMAGE], "spin-image")
+        self.assertEqual(focal.distances()[focal.Distance.COMMUTE_TIME], "commute-time")
+        for descriptor in ("WKS", "wks", focal.Descriptor.WKS, 2):
+            made = focal.Model.train(training_set(count=2), preset="paper", tree_count=1, descriptor=descriptor,
+                                     distance="commute_time")
+            self.assertEqual((made.train_params["descriptor"], made.train_params["distance"]), ("wks", "commute-time"))
+        with self.assertRaisesRegex(ValueError, "one of: si-hks, hks"):
+            focal.Model.train(training_set(count=2), descriptor="curvature")
+        with self.assertRaisesRegex(focal.Error, "geodesic"):
+            focal.Model.train(training_set(count=2), distance="biharmonic")
+
     def test_every_parameter_of_the_header_has_a_keyword(self):
         keywords = {
             _abi.focal_train_params: [focal.Model.train], _abi.focal_detect_params: [focal.Model.detect],

@@ -4,7 +4,7 @@
 #include <iostream>
 #include <numeric>
 
-#include "descriptors/descriptor.h"
+#include "descriptors/si_hks.h"
 #include "geodesics/heat_method.h"
 #include "gltf/reader.h"
 #include "operators/operators.h"
@@ -34,6 +34,9 @@ void write_stages(const TriangleMesh& mesh, const std::filesystem::path& folder,
   const RowMatrix distances =
       HeatMethod(mesh, operators, execution, 1, true).distances(sources, execution).cast<double>();
   write_raw(folder / "heat", distances);
+  const auto exact = distance_kinds()[1].make({mesh, {}, operators}, execution);
+  write_raw(folder / "own_exact",
+            exact->distances(std::span(sources).first(2), execution).cast<double>().eval());
 }
 
 }  // namespace

@@ -9,12 +9,12 @@ The package stands on focal's shared library through ctypes and needs nothing el
 come as arrays. Positions and lengths are in the units of your mesh; vertex and triangle numbers are those of your mesh,
 from 0. All objects but TrainingSet may be used by any number of threads at once; calls let other Python threads run.
 """
-from ._abi import Backend, BoneNames, LandmarkStatus, LogLevel, Preset, Quality, Segmentation, Status
+from ._abi import Backend, BoneNames, Descriptor, Distance, LandmarkStatus, LogLevel, Preset, Quality, Segmentation, Status
 from ._context import Context
 from ._correspondence import Correspondence
 from ._detection import Detection, Landmark, Place
 from ._errors import Cancelled, Error, LibraryError
-from ._library import VERSION, load_library, peak_memory_bytes, version
+from ._library import VERSION, descriptors, distances, load_library, peak_memory_bytes, version
 from ._mesh import NO_TRIANGLE, Mesh
 from ._model import Analysis, Model
 from ._skeleton import Joint, Skeleton
@@ -25,10 +25,10 @@ from ._values import SurfacePoint
 __version__ = ".".join(map(str, VERSION))
 
 __all__ = [
-    "Analysis", "Backend", "BoneNames", "Cancelled", "Context", "Correspondence", "Detection", "Error", "Joint",
-    "Landmark", "LandmarkStatus", "LibraryError", "LogLevel", "Mesh", "Model", "NO_TRIANGLE", "Place", "Preset",
-    "Quality", "Segmentation", "Skeleton", "Status", "SurfacePoint", "Task", "TrainingSet", "load_library",
-    "peak_memory_bytes", "version",
+    "Analysis", "Backend", "BoneNames", "Cancelled", "Context", "Correspondence", "Descriptor", "Detection", "Distance",
+    "Error", "Joint", "Landmark", "LandmarkStatus", "LibraryError", "LogLevel", "Mesh", "Model", "NO_TRIANGLE", "Place",
+    "Preset", "Quality", "Segmentation", "Skeleton", "Status", "SurfacePoint", "Task", "TrainingSet", "descriptors",
+    "distances", "load_library", "peak_memory_bytes", "version",
 ]
 
 for _name in __all__:  # shown, and pickled, by the name that users know

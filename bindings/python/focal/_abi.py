@@ -45,6 +45,23 @@ class LogLevel(IntEnum):
     ERROR = 2
 
 
+class Descriptor(IntEnum):
+    """focal_descriptor"""
+    SI_HKS = 0
+    HKS = 1
+    WKS = 2
+    SPIN_IMAGE = 3
+    UNIQUE_SHAPE_CONTEXT = 4
+
+
+class Distance(IntEnum):
+    """focal_distance"""
+    HEAT = 0
+    EXACT = 1
+    BIHARMONIC = 2
+    COMMUTE_TIME = 3
+
+
 class Preset(IntEnum):
     """focal_preset"""
     DEFAULT = 0
@@ -175,6 +192,15 @@ class focal_mesh_info(Structure):
     ]
 
 
+class focal_symmetry_plane(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("normal", c_float * 3),
+        ("offset", c_double),
+        ("support", c_double),
+    ]
+
+
 class focal_train_params(Structure):
     _fields_ = [
         ("struct_size", c_uint32),
@@ -189,6 +215,8 @@ class focal_train_params(Structure):
         ("seed", c_uint64),
         ("learn_confidence", c_int32),
         ("rigged_shapes", c_int32),
+        ("descriptor", c_int32),
+        ("distance", c_int32),
     ]
 
 
@@ -346,6 +374,17 @@ FUNCTIONS = {
     "focal_mesh_warning": (c_char_p, [P(focal_mesh), c_uint32]),
     "focal_mesh_position_of": (c_int32, [P(focal_mesh), P(focal_surface_point), P(c_float)]),
     "focal_mesh_point_at_vertex": (c_int32, [P(focal_mesh), c_uint32, P(focal_surface_point)]),
+    "focal_descriptor_count": (c_uint32, []),
+    "focal_descriptor_name": (c_char_p, [c_int32]),
+    "focal_descriptor_dimension": (c_uint32, [c_int32]),
+    "focal_distance_count": (c_uint32, []),
+    "focal_distance_name": (c_char_p, [c_int32]),
+    "focal_mesh_describe": (c_int32, [
+        P(focal_context), P(focal_mesh), c_int32, P(c_uint32), c_uint64, P(focal_task), P(c_float)]),
+    "focal_mesh_distances": (c_int32, [
+        P(focal_context), P(focal_mesh), c_int32, P(focal_surface_point), P(focal_task), c_uint64, P(c_float)]),
+    "focal_symmetry_plane_init": (c_int32, [P(focal_symmetry_plane), c_size_t]),
+    "focal_mesh_symmetry_plane": (c_int32, [P(focal_context), P(focal_mesh), c_uint64, P(focal_symmetry_plane)]),
     "focal_training_set_create": (c_int32, [P(focal_context), P(c_char_p), c_uint64, P(P(focal_training_set))]),
     "focal_training_set_destroy": (c_int32, [P(focal_training_set)]),
     "focal_training_set_add": (c_int32, [P(focal_training_set), P(focal_mesh), P(focal_surface_point), c_uint64]),
@@ -376,6 +415,9 @@ FUNCTIONS = {
         P(focal_model), P(focal_analysis), P(focal_detect_params), P(focal_task), P(P(focal_detection))]),
     "focal_analysis_save": (c_int32, [P(focal_analysis), c_char_p]),
     "focal_analysis_load": (c_int32, [P(focal_context), P(focal_mesh), c_char_p, P(P(focal_analysis))]),
+    "focal_analysis_sample_count": (c_uint64, [P(focal_analysis)]),
+    "focal_model_regress": (c_int32, [
+        P(focal_model), P(focal_analysis), c_uint32, P(focal_surface_point), c_uint64, P(c_float), P(c_float)]),
     "focal_landmark_init": (c_int32, [P(focal_landmark), c_size_t]),
     "focal_detection_landmark_count": (c_uint32, [P(focal_detection)]),
     "focal_detection_get_landmark": (c_int32, [P(focal_detection), c_uint32, P(focal_landmark)]),

@@ -129,6 +129,16 @@ def create(name: str, kind: type, *arguments):
     return out
 
 
+def descriptors() -> list[str]:
+    """The names of the descriptors that Model.train can choose from, in the order of focal.Descriptor."""
+    return [library().focal_descriptor_name(i).decode() for i in range(library().focal_descriptor_count())]
+
+
+def distances() -> list[str]:
+    """The names of the distances that Model.train can choose from, in the order of focal.Distance."""
+    return [library().focal_distance_name(i).decode() for i in range(library().focal_distance_count())]
+
+
 def version() -> str:
     """The version of the loaded library, such as "0.1.0"."""
     return library().focal_version_string().decode()

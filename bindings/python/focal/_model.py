@@ -9,11 +9,11 @@ from . import _abi
 from ._context import Context, context_or_default
 from ._detection import Detection
 from ._handle import Handle, handle_of
-from ._library import call, create, library
+from ._library import call, create, descriptors, distances, library
 from ._mesh import Mark, Mesh, bytes_of, marked_point
 from ._task import Progress, Task, run
 from ._training_set import TrainingSet
-from ._values import as_dict, choice, fill, new, path_text
+from ._values import as_dict, choice, fill, listed, new, path_text
 
 
 class Model(Handle):
@@ -30,8 +30,9 @@ class Model(Handle):
               eigenpair_count: int | None = None, tree_count: int | None = None, min_leaf_samples: int | None = None,
               components_per_split: int | None = None, sampling_rate: float | None = None,
               max_samples_per_shape: int | None = None, proxy_vertices: int | None = None, seed: int | None = None,
-              learn_confidence: bool | None = None, rigged_shapes: int | None = None, task: Task | None = None,
-              on_progress: Progress | None = None) -> Model:
+              learn_confidence: bool | None = None, rigged_shapes: int | None = None,
+              descriptor: _abi.Descriptor | str | int | None = None, distance: _abi.Distance | str | int | None = None,
+              task: Task | None = None, on_progress: Progress | None = None) -> Model:
         """Learns a model; seconds to minutes.
 
         preset                 "default", or "paper": Xia et al. 2016 to the letter
@@ -45,6 +46,8 @@ class Model(Handle):
         seed                   same seed, same model. Default 0
         learn_confidence       takes two thirds of the time; without it every confidence is about a half. Default True
         rigged_shapes          learned of rigged characters in all, posed copies included. Default 16
+        descriptor             "si-hks" or another name of focal.descriptors(). Default "si-hks"
+        distance               "heat" or another name of focal.distances(). Default "heat"
         task, on_progress      see focal.Task; on_progress(progress in 0..1, stage: str) is called on this thread,
                                about twenty times a second; what it raises cancels the training and is raised here
 
@@ -58,7 +61,9 @@ class Model(Handle):
         fill(params, eigenpair_count=eigenpair_count, tree_count=tree_count, min_leaf_samples=min_leaf_samples,
              components_per_split=components_per_split, sampling_rate=sampling_rate,
              max_samples_per_shape=max_samples_per_shape, proxy_vertices=proxy_vertices, seed=seed,
-             learn_confidence=learn_confidence, rigged_shapes=rigged_shapes)
+             learn_confidence=learn_confidence, rigged_shapes=rigged_shapes,
+             descriptor=listed(descriptor, descriptors(), "descriptor"),
+             distance=listed(distance, distances(), "distance"))
 
         def train(task_handle: Any) -> Model:
             return cls._adopt(create("focal_model_train", _abi.focal_model, set_handle, ctypes.byref(params),
@@ -111,7 +116,8 @@ class Model(Handle):
         """The parameters of train() that it was made with."""
         params = new(_abi.focal_train_params)
         call("focal_model_get_train_params", self._handle, ctypes.byref(params))
-        return as_dict(params)
+        return {**as_dict(params), "descriptor": descriptors()[params.descriptor],
+                "distance": distances()[params.distance]}
 
     @property
     def landmark_names(self) -> list[str]:

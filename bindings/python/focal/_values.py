@@ -74,6 +74,19 @@ def choice(kind: type[Choice], value: Any, name: str) -> Choice:
     raise TypeError(f"{name} must be a focal.{kind.__name__} or its name, not {type(value).__name__}")
 
 
+def listed(value: Any, names: list[str], name: str) -> int | None:
+    """The number of one of the library's names, in any case: "si-hks", Descriptor.SI_HKS, 0."""
+    if isinstance(value, str):
+        value = value.lower().replace("_", "-")
+    elif value is None or (isinstance(value, int) and not isinstance(value, bool)):
+        return value
+    else:
+        raise TypeError(f"{name} must be a name or a number, not {type(value).__name__}")
+    if value not in names:
+        raise ValueError(f"{name} is {value!r}, not one of: {', '.join(names)}")
+    return names.index(value)
+
+
 def new(kind: type) -> Any:
     """A struct with its struct_size and defaults."""
     struct = kind()

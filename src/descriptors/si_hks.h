@@ -1,0 +1,20 @@
+// Scale-invariant heat kernel signature: what preset `paper` and preset `default` describe points by.
+#pragma once
+#include <cstdint>
+#include <span>
+
+#include "base/matrix.h"
+#include "base/parallel.h"
+#include "spectrum/eigenbasis.h"
+
+namespace focal {
+
+inline constexpr int32_t si_hks_dimension = 96;
+
+// M. Bronstein, I. Kokkinos, "Scale-Invariant Heat Kernel Signatures for Non-Rigid Shape Recognition", 2010, with the
+// times and frequencies of Xia et al. 2016, Section 5. Equal at equal points of isometric surfaces.
+// area: of the surface; vertices: the rows of basis.Phi to describe. Returns vertices x 96, >= 0, no unit.
+RowMatrix si_hks(const Eigenbasis& basis, double area, std::span<const int32_t> vertices,
+                 const Execution& execution = Execution().inner());
+
+}  // namespace focal

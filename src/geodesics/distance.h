@@ -1,0 +1,97 @@
+// How far points of a surface are from one another: the interface of every distance, and the list of them.
+#pragma once
+#include <functional>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/parallel.h"
+#include "linear/sparse_cholesky.h"
+#include "mesh/triangle_mesh.h"
+#include "operators/operators.h"
+
+namespace focal {
+
+// What can be prepared for a surface is made once, then distances come from any number of sources, 32 at a time. Immutable
+// once made: thread-safe.
+class Distance {
+ public:
+  static constexpr int lanes = SparseCholesky::lanes;
+
+  virtual ~Distance() = default;
+
+  // Called once a block of up to 32 sources, from several threads at once: distances[v * lanes + j] is the distance, in
+  // the mesh's units and >= 0, of vertex v from source first + j, for j < count.
+  using BlockSink = std::function<void(int64_t first, int32_t count, const float* distances)>;
+  void for_each_block(std::span<const SurfacePoint> sources, const Execution& execution,
+                      const BlockSink& sink) const;
+  void for_each_block(std::span<const int32_t> source_vertices, const Execution& execution,
+                      const BlockSink& sink) const;
+
+  // sources x vertices.
+  RowMatrixf distances(std::span<const SurfacePoint> sources, const Execution& execution) const;
+  RowMatrixf distances(std::span<const int32_t> source_vertices, const Execution& execution) const;
+
+  int32_t vertex_count() const { return static_cast<int32_t>(positions_.rows()); }
+  // No two vertices are farther apart.
+  double distance_bound() const { return distance_bound_; }
+  // A sentence on what had to be done to this mesh, or null.
+  virtual const char* warning() const { return nullptr; }
+  // The analysis of L's pattern where one was made, for other factors of the same surface; else null.
+  virtual std::shared_ptr<const SymbolicFactor> symbolic() const { return nullptr; }
+
+ protected:
+  struct Source {
+    int32_t vertex[3];
+    double weight[3];
+    float corner_distance = 0;  // weighted mean of the corners' distances from the source
+    int32_t triangle = -1;      // -1: the source is vertex[0]
+  };
+
+  Distance() = default;
+  explicit Distance(const TriangleMesh& mesh) : positions_(mesh.positions), triangles_(mesh.triangles) {}
+
+  // The distances from 1 to 32 sources; out holds vertex_count() * lanes numbers, lanes without a source count for nothing.
+  virtual void solve_block(std::span<const Source> sources, float* out, const Execution& execution) const = 0;
+
+  double distance_bound_ = 0;
+  MatrixX3 positions_;
+  MatrixX3i triangles_;
+
+ private:
+  void run(std::span<const Source> sources, const Execution& execution, const BlockSink& sink) const;
+};
+
+// An upper bound of the largest distance: twice the farthest path along the entries of L from one vertex.
+double diameter_bound(const TriangleMesh& mesh, const SparseMatrix& L);
+
+// What a distance is made of.
+struct MeasuredSurface {
+  const TriangleMesh& mesh;
+  std::span<const std::pair<int32_t, int32_t>> bridges;  // pairs of vertices that link separate parts
+  const Operators& operators;
+  bool to_the_letter = false;  // as preset `paper` has it (see HeatMethod)
+};
+
+struct DistanceKind {
+  std::string_view name;  // a literal: on the command line and in model files
+  bool is_geodesic;       // lengths along the surface: what preset `default` reckons with
+  bool is_length;         // it grows with the mesh
+  std::shared_ptr<const Distance> (*make)(const MeasuredSurface& surface, const Execution& execution);
+};
+
+// All distances there are, one line each: the n-th line defines number n in focal.h, so lines are only ever added at the end.
+// A line `kind(NAME)` stands for a function `DistanceKind NAME_distance()` in a file of its own.
+// clang-format off
+#define FOCAL_DISTANCES(kind) \
+  kind(heat)                  \
+  kind(exact)                 \
+  kind(biharmonic)            \
+  kind(commute_time)
+// clang-format on
+
+std::span<const DistanceKind> distance_kinds();
+
+}  // namespace focal

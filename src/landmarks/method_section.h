@@ -1,0 +1,20 @@
+// The section METH of model and analysis files: which descriptor and which distance, by name. Files without it have the first
+// of each, which was all there was once.
+#pragma once
+#include "base/archive.h"
+
+namespace focal {
+
+inline constexpr const char* method_section = "METH";
+
+// Numbers in the lists of descriptors/descriptor.h and geodesics/distance.h.
+struct Method {
+  int32_t descriptor = 0, distance = 0;
+  bool is_first() const { return descriptor == 0 && distance == 0; }
+};
+
+std::vector<std::byte> write_method(const Method& method);
+// Throws unsupported when this library does not have it.
+Method read_method(const Archive& archive);
+
+}  // namespace focal
