@@ -293,7 +293,7 @@ enum {
 typedef int32_t focal_distance;
 enum {
   FOCAL_DISTANCE_HEAT = 0,        /* geodesic, by the heat method */
-  FOCAL_DISTANCE_EXACT = 1,       /* geodesic, exact on the triangles; a hundred times slower */
+  FOCAL_DISTANCE_EXACT = 1,       /* geodesic, exact on the triangles; much slower */
   FOCAL_DISTANCE_BIHARMONIC = 2,  /* not geodesic, like the next: preset paper only */
   FOCAL_DISTANCE_COMMUTE_TIME = 3 /* has no unit */
 };
@@ -306,8 +306,7 @@ FOCAL_API uint32_t focal_descriptor_dimension(focal_descriptor descriptor);
 FOCAL_API uint32_t focal_distance_count(void);
 FOCAL_API const char* focal_distance_name(focal_distance distance);
 
-/* Describes vertices of the surface as it is, as preset paper does, by 200 eigenpairs; about a second for 12,500
- * vertices. out_values: vertex_count x the descriptor's dimension. task may be NULL. Errors: INVALID_ARGUMENT
+/* Describes vertices of the surface as it is, as preset paper does, by 200 eigenpairs. out_values: vertex_count x the descriptor's dimension. task may be NULL. Errors: INVALID_ARGUMENT
  * (no such descriptor), INVALID_LANDMARK (no such vertex, or no triangle uses it), NOT_CONVERGED, CANCELLED. */
 FOCAL_API focal_status focal_mesh_describe(const focal_context* context, const focal_mesh* mesh,
                                            focal_descriptor descriptor, const uint32_t* vertices,
@@ -321,7 +320,7 @@ FOCAL_API focal_status focal_mesh_distances(const focal_context* context, const 
                                             focal_task* task, uint64_t vertex_count, float* out_distances);
 
 /* The plane that mirrors most of the surface onto itself: {x : normal . x = offset}, by votes of pairs of points
- * that look alike (Mitra, Guibas, Pauly 2006); about 0.3 s. The sign of the normal carries no meaning. */
+ * that look alike (Mitra, Guibas, Pauly 2006). The sign of the normal carries no meaning. */
 typedef struct focal_symmetry_plane {
   uint32_t struct_size;
   float normal[3]; /* of length 1 */

@@ -1,4 +1,5 @@
-// The paper's three kinds of point, by name, for each set (its Table 2): tips of the shape, flat places, and what lies between.
+// The paper's three kinds of point, by name, for each set (its Table 2): tips of the shape, flat places, and what
+// lies between.
 #pragma once
 #include <string>
 #include <vector>

@@ -88,7 +88,7 @@ std::string damage(const Study& study) {
           ". Three rows of preset paper by descriptor, one of preset default; noise "
           "of 0.3 mean edges, 60 holes of one vertex each, a hundred times the size.",
       "our spin images and shape contexts weigh points by area and look no farther than the connected "
-      "surface nearby, which makes them sturdier than the paper shows them.",
+      "surface nearby, where the authors' are not described.",
       pictures(figures, changes.size()));
 }
 
@@ -116,8 +116,8 @@ std::string resolution(const Study& study) {
           ", the test shape with so many vertices; the models are the same. Errors in "
           "mean edges of the shape as it was.",
       "preset paper averages votes round every vertex, which takes distances from all of them: above "
-      "13,000 vertices that is minutes to hours on a processor and not tried. Preset default analyses a "
-      "proxy and takes about as long for any.",
+      "13,000 vertices that was not tried. Preset default analyses a "
+      "proxy of 3,500 vertices whatever the size.",
       pictures(figures, changes.size()));
 }
 

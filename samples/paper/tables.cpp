@@ -86,7 +86,7 @@ std::string errors(const std::vector<Study>& studies) {
       "the points are the nearest to the paper's that the sets have marks for, and the shapes are "
       "remeshed ones of the same sources. The paper does not say how the symmetry plane's normal is "
       "pointed on a new shape; here both ways vote and the stronger wins, and where the plane does "
-      "not divide a bent body, left and right change places: most of preset paper's errors are that.",
+      "not divide a bent body, left and right can change places.",
       table(rows));
 }
 

@@ -1,5 +1,5 @@
-// Heat kernel signature: J. Sun, M. Ovsjanikov, L. Guibas, "A Concise and Provably Informative Multi-Scale Signature Based on
-// Heat Diffusion", 2009. Component k is the heat that stays at a point until t_k, times the area.
+// Heat kernel signature: J. Sun, M. Ovsjanikov, L. Guibas, "A Concise and Provably Informative Multi-Scale Signature
+// Based on Heat Diffusion", 2009. Component k is the heat that stays at a point until t_k, times the area.
 #include <cmath>
 
 #include "descriptors/descriptor.h"

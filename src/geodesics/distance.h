@@ -82,7 +82,8 @@ struct DistanceKind {
   std::shared_ptr<const Distance> (*make)(const MeasuredSurface& surface, const Execution& execution);
 };
 
-// All distances there are, one line each: the n-th line defines number n in focal.h, so lines are only ever added at the end.
+// All distances there are, one line each: the n-th line defines number n in focal.h, so lines are only ever added at
+// the end.
 // A line `kind(NAME)` stands for a function `DistanceKind NAME_distance()` in a file of its own.
 // clang-format off
 #define FOCAL_DISTANCES(kind) \

@@ -1,4 +1,6 @@
 // SI-HKS against its definition and its invariances.
+#include "descriptors/si_hks.h"
+
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -7,7 +9,6 @@
 #include <numbers>
 #include <numeric>
 
-#include "descriptors/si_hks.h"
 #include "operators/operators.h"
 #include "surfaces.h"
 
