@@ -8,6 +8,7 @@
 
 #include "command_error.h"
 #include "files.h"
+#include "json_text.h"
 
 namespace focal_cli {
 namespace {
@@ -91,7 +92,7 @@ LandmarkFormat landmark_format_of(const std::string& path) {
 }
 
 LandmarkFile parse_own_json(std::string_view text) {
-  const Json document = Json::parse(text);
+  const Json document = parse_json<Json>(text);
   if (!document.is_object() || document.value("format", "") != "focal-landmarks") {
     throw CommandError("this JSON holds no focal landmarks",
                        "it needs \"format\": \"focal-landmarks\"; 3D Slicer's files end in .mrk.json");

@@ -7,6 +7,7 @@
 
 #include "command_error.h"
 #include "files.h"
+#include "json_text.h"
 
 namespace focal_cli {
 namespace {
@@ -99,7 +100,8 @@ SetFolder read_set(const std::string& folder) {
                        "a set needs set.json with landmark_names, train and test");
   }
   try {
-    SetFolder set = set_of(Json::parse(read_text_file(path)), fs::path(folder).lexically_normal().string());
+    SetFolder set =
+        set_of(parse_json<Json>(read_text_file(path)), fs::path(folder).lexically_normal().string());
     if (set.folder.size() > 1 && set.folder.ends_with('/')) set.folder.pop_back();
     if (set.name.empty()) set.name = fs::path(set.folder).filename().string();
     if (!set.landmark_names.empty()) return set;

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command_error.h"
+#include "json_text.h"
 #include "landmark_files.h"
 #include "landmark_text.h"
 
@@ -58,7 +59,7 @@ FcsvColumns columns_of(std::string_view list) {
 }  // namespace
 
 LandmarkFile parse_slicer_json(std::string_view text) {
-  const Json document = Json::parse(text);
+  const Json document = parse_json<Json>(text);
   LandmarkFile file;
   for (const Json& list : document.at("markups")) {
     const Json system = list.value("coordinateSystem", Json("LPS"));

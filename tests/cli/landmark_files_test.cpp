@@ -145,6 +145,8 @@ TEST_CASE("damaged and foreign files are refused by name, with a hint") {
       {"unnamed.json", head + R"([{"name":"","vertex":1}]})"},
       {"typed.json", head + R"([{"name":3,"vertex":1}]})"},
       {"a.mrk.json", R"({"markups":[{"controlPoints":[{"label":"a","position":[1,2]}]}]})"},
+      {"deep.json", head + std::string(100'000, '[')},
+      {"deep.mrk.json", R"({"markups":)" + std::string(100'000, '[') + std::string(100'000, ']') + "}"},
       {"empty.csv", ""},
       {"headless.csv", "a,1,2,3\n"},
       {"comma.csv", "name,x,y,z\na,1;5,2,3\n"},
