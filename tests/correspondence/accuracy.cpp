@@ -54,7 +54,7 @@ double error_of(const DenseMap& map, const Subject& from, const Subject& to, Ran
     found.push_back(to_surface(mesh, image));
   }
   const auto at = to_coarse(to.detection.proxy, truth), images = to_coarse(to.detection.proxy, found);
-  const RowMatrixf fields = to.detection.analysis->heat.distances(at, execution);
+  const RowMatrixf fields = to.detection.analysis->metric->distances(at, execution);
   double sum = 0;
   for (size_t i = 0; i < truth.size(); ++i) {
     const double line = (position_of(mesh.surface, truth[i]) - position_of(mesh.surface, found[i])).norm();
