@@ -1,5 +1,5 @@
 #!/bin/sh
-# All that docs/reliability.md counts on memory, files, settings and threads that fail or are odd. About an hour on two cores.
+# All that docs/reliability.md counts on memory, files, settings and threads that fail or are odd. Some hours, most of them for the paper's training.
 # usage: run.sh [BUILD], default build/release; a build of the preset tsan runs what a thread sanitizer can
 set -eu
 build=$(cd "${1:-$(dirname "$0")/../../build/release}" && pwd)
