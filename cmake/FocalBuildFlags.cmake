@@ -28,10 +28,6 @@ if(FOCAL_SANITIZE)
   target_link_libraries(focal_sanitize INTERFACE $<$<CXX_COMPILER_ID:Clang>:stdc++>)
 endif()
 target_link_libraries(focal_flags INTERFACE focal_sanitize)
-if(FOCAL_FUZZ)
-  target_compile_options(focal_flags INTERFACE -fsanitize=fuzzer-no-link)
-  target_link_options(focal_flags INTERFACE -fsanitize=fuzzer-no-link)
-endif()
 
 # Our own files only, never those of a project that links them.
 add_library(focal_warnings INTERFACE)

@@ -13,7 +13,8 @@ constexpr double first_exponent = 1, last_exponent = 25, reference_area = 2e4;
 
 RowMatrix describe(const DescribedSurface& surface, std::span<const int32_t> vertices,
                    const Execution& execution) {
-  const auto& [lambda, Phi] = surface.basis;
+  const Vector& lambda = surface.basis.lambda;
+  const Matrix& Phi = surface.basis.Phi;
   const double area = surface.operators.area;
   Matrix decay(lambda.size(), dimension);
   for (int32_t k = 0; k < dimension; ++k) {

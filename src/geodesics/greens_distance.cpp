@@ -8,7 +8,6 @@
 namespace focal {
 namespace {
 
-constexpr int lanes = Distance::lanes;
 // Of the Laplacian, in units of 1 / area: makes it definite, slivers or not, and lies far below its other eigenvalues.
 constexpr double shift = 1e-6;
 
