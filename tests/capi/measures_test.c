@@ -152,12 +152,13 @@ static void check_regression(focal_mesh* mesh, const shape* truth) {
 
 int main(void) {
   CHECK_OK(focal_context_create(NULL, &context));
-  const shape truth = shape_create(RINGS, 0.25f);
+  shape truth = shape_create(RINGS, 0.25f);
   focal_mesh* mesh = shape_mesh(context, RINGS, 0.25f);
   check_lists();
   check_choices(mesh, &truth);
   check_measures(mesh, &truth);
   check_regression(mesh, &truth);
+  shape_destroy(&truth);
   focal_mesh_destroy(mesh);
   focal_context_destroy(context);
   return 0;
