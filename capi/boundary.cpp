@@ -1,6 +1,8 @@
 #include "boundary.h"
 
 #include <algorithm>
+#include <cinttypes>
+#include <cstdio>
 #include <cstring>
 #include <new>
 #include <stdexcept>
@@ -37,6 +39,27 @@ void set_last_error(std::string_view message, std::string_view hint) noexcept {
   error_text[size] = '\0';
 }
 
+// Whole megabytes, up: the numbers are for a person, and the host's locale has no part in them.
+int64_t megabytes(int64_t bytes) { return (bytes + (1 << 20) - 1) >> 20; }
+
+void set_out_of_memory() noexcept {
+  const MemoryBudget* const budget = memory_budget();
+  const int64_t asked = budget ? budget->asked.exchange(0) : 0;
+  if (asked == 0)
+    return set_last_error("out of memory", "close other programs, or use a mesh with fewer vertices");
+  char message[200];
+  std::snprintf(message, sizeof message,
+                "the memory budget of %" PRId64 " bytes is too small: %" PRId64 " are held, %" PRId64
+                " more are needed here",
+                budget->limit, budget->held.load(), asked);
+  char hint[200];
+  std::snprintf(hint, sizeof hint,
+                "raise focal_context_params.memory_budget_bytes to well over %" PRId64
+                " MB, destroy what is no longer needed, or use a mesh with fewer vertices",
+                megabytes(budget->held + asked));
+  set_last_error(message, hint);
+}
+
 }  // namespace
 
 DefaultFloatEnvironment::DefaultFloatEnvironment() noexcept {
@@ -56,7 +79,7 @@ focal_status record_current_exception() noexcept {
     set_last_error(error.what(), error.hint());
     return static_cast<focal_status>(error.status());
   } catch (const std::bad_alloc&) {
-    set_last_error("out of memory", "close other programs, or use a mesh with fewer vertices");
+    set_out_of_memory();
     return FOCAL_ERROR_OUT_OF_MEMORY;
   } catch (const std::length_error&) {
     set_last_error("out of memory: a size beyond any memory", "use a mesh with fewer vertices");

@@ -3,6 +3,7 @@
 #include <cfenv>
 #include <utility>
 
+#include "base/memory_budget.h"
 #include "focal/focal.h"
 
 namespace focal {
@@ -28,6 +29,7 @@ const char* last_error() noexcept;
 template <class Body>
 focal_status guarded(Body&& body) noexcept {
   const DefaultFloatEnvironment environment;
+  const KeepTo memory(nullptr);  // resolve() finds the budget
   try {
     std::forward<Body>(body)();
     return FOCAL_OK;

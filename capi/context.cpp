@@ -1,5 +1,6 @@
 #include "context.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "boundary.h"
@@ -29,6 +30,10 @@ std::shared_ptr<ContextObject> make_context(const focal_context_params& params) 
                                 ? "the CPU was asked for"
                                 : "this build has no GPU module, so the CPU is used";
   context->execution.thread_count = params.thread_count;
+  if (params.memory_budget_bytes > 0) {
+    const uint64_t limit = std::min<uint64_t>(params.memory_budget_bytes, INT64_MAX);
+    context->memory_budget = std::make_shared<const MemoryBudget>(static_cast<int64_t>(limit));
+  }
   if (params.parallel_for)
     context->execution.host_parallel_for =
         adapt_parallel_for(params.parallel_for, params.parallel_for_user_data);
@@ -42,9 +47,11 @@ std::shared_ptr<ContextObject> make_context(const focal_context_params& params) 
 template <>
 struct StructTraits<focal_context_params> {
   static constexpr const char* name = "focal_context_params";
-  static constexpr size_t first_size = sizeof(focal_context_params);
+  static constexpr size_t first_size = 48;
   static focal_context_params defaults() { return {}; }
 };
+static_assert(sizeof(void*) != 8 || (sizeof(focal_context_params) == 56 &&
+                                     offsetof(focal_context_params, memory_budget_bytes) == 48));
 
 Execution ContextObject::execution_with(Task* task) const {
   Execution with_task = execution;
@@ -88,6 +95,13 @@ focal_backend focal_context_backend(const focal_context* context) {
 const char* focal_context_backend_reason(const focal_context* context) {
   return guarded_value<const char*>(nullptr,
                                     [&] { return resolve<ContextObject>(context)->backend_reason.c_str(); });
+}
+
+uint64_t focal_context_memory_held(const focal_context* context) {
+  return guarded_value<uint64_t>(0, [&] {
+    resolve<ContextObject>(context);
+    return static_cast<uint64_t>(std::max<int64_t>(memory_held(), 0));
+  });
 }
 
 int32_t focal_context_thread_count(const focal_context* context) {

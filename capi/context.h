@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/memory_budget.h"
 #include "base/parallel.h"
 #include "handles.h"
 
@@ -15,7 +16,8 @@ struct ContextObject {
 
   focal_backend backend = FOCAL_BACKEND_CPU;
   std::string backend_reason;
-  Execution execution;  // without a task
+  Execution execution;                                // without a task
+  std::shared_ptr<const MemoryBudget> memory_budget;  // null: none
   focal_log_fn log = nullptr;
   void* log_user_data = nullptr;
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "base/memory_budget.h"
 #include "focal/focal.h"
 
 namespace focal {
@@ -37,10 +38,33 @@ typename Object::Handle* publish(std::shared_ptr<Object> object) {
   return static_cast<typename Object::Handle*>(const_cast<void*>(tag));
 }
 
-// Shared ownership for the time of the call: another thread may destroy the handle meanwhile.
+// Of the context behind an object; null where the object knows of none.
+template <class Object>
+std::shared_ptr<const MemoryBudget> memory_budget_of(const Object& object) {
+  if constexpr (requires { object.memory_budget; }) {
+    return object.memory_budget;
+  } else if constexpr (requires { object.context->memory_budget; }) {
+    return object.context->memory_budget;
+  } else if constexpr (requires { object.model->context; }) {
+    return memory_budget_of(*object.model);
+  } else if constexpr (requires { object.detection->model; }) {
+    return memory_budget_of(*object.detection);
+  } else if constexpr (requires { object.mesh->memory_budget; }) {
+    return object.mesh->memory_budget;
+  } else if constexpr (requires { object.from->memory_budget; }) {
+    return object.from->memory_budget;
+  } else {
+    return nullptr;
+  }
+}
+
+// Shared ownership for the time of the call: another thread may destroy the handle meanwhile. From here on the call
+// keeps to the memory budget of the object's context.
 template <class Object>
 std::shared_ptr<Object> resolve(const typename Object::Handle* handle) {
-  return std::static_pointer_cast<Object>(find_handle(handle, Object::type));
+  auto object = std::static_pointer_cast<Object>(find_handle(handle, Object::type));
+  KeepTo::adopt(memory_budget_of(*object));
+  return object;
 }
 
 }  // namespace focal

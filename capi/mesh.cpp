@@ -14,6 +14,7 @@
 #include "gltf/skin.h"
 #include "structs.h"
 #include "surface_points.h"
+#include "task.h"
 
 namespace focal {
 
@@ -24,8 +25,9 @@ struct StructTraits<focal_mesh_params> {
   static focal_mesh_params defaults();
 };
 static_assert(sizeof(void*) != 8 ||
-              (sizeof(focal_mesh_params) == 88 && offsetof(focal_mesh_params, max_vertices) == 24 &&
-               offsetof(focal_mesh_params, pose_time) == 72 && offsetof(focal_mesh_params, lenient) == 80));
+              (sizeof(focal_mesh_params) == 96 && offsetof(focal_mesh_params, max_vertices) == 24 &&
+               offsetof(focal_mesh_params, pose_time) == 72 && offsetof(focal_mesh_params, lenient) == 80 &&
+               offsetof(focal_mesh_params, task) == 88));
 
 template <>
 struct StructTraits<focal_mesh_desc> {
@@ -132,14 +134,16 @@ TriangleMesh mesh_of(const focal_mesh_desc& desc, bool lenient) {
 }
 
 // Prepares the surface and fills what the getters answer with.
-void finish(MeshObject& object, TriangleMesh source, const focal_mesh_params& params) {
+void finish(MeshObject& object, TriangleMesh source, const focal_mesh_params& params,
+            const Execution& execution) {
   Stopwatch watch;
   PrepareParams prepare_params;
   prepare_params.weld = params.weld != 0;
   prepare_params.drop_degenerate = params.drop_degenerate != 0;
   prepare_params.bridge_components = params.bridge_components != 0;
   prepare_params.lenient = params.lenient != 0;
-  auto mesh = std::make_shared<const PreparedMesh>(prepare(std::move(source), prepare_params));
+  execution.begin_stage("repair", 0.5, 1);
+  auto mesh = std::make_shared<const PreparedMesh>(prepare(std::move(source), prepare_params, execution));
   object.positions.resize(static_cast<size_t>(mesh->source.positions.size()));
   for (size_t i = 0; i < object.positions.size(); ++i)
     object.positions[i] = static_cast<float>(mesh->source.positions.data()[i]);
@@ -147,6 +151,7 @@ void finish(MeshObject& object, TriangleMesh source, const focal_mesh_params& pa
   object.surface_area = mesh->scale * mesh->scale * surface_area(mesh->surface);
   object.warnings.insert(object.warnings.end(), mesh->warnings.begin(), mesh->warnings.end());
   object.mesh = std::move(mesh);
+  execution.begin_stage("done", 1, 1);
   object.repair_seconds = watch.lap();
 }
 
@@ -226,9 +231,14 @@ focal_mesh* load(const focal_context* context, const focal_mesh_params* given, R
   const auto running = resolve<ContextObject>(context);
   const focal_mesh_params params = checked(given);
   const GltfReadParams how = read_params(params);
+  const TaskLease lease(params.task);
+  const Execution execution = running->execution_with(lease.task());
   const auto object = std::make_shared<MeshObject>();
+  object->memory_budget = running->memory_budget;
   Stopwatch watch;
+  execution.begin_stage("reading", 0, 0.5);
   LoadedFile loaded = read(how, params.keep_source_file != 0 || params.pose_animation);
+  execution.check_cancelled();
   if (params.pose_animation) {
     pose(loaded, params.pose_animation, params.pose_time, how.limits);
     loaded.bytes.clear();
@@ -239,7 +249,7 @@ focal_mesh* load(const focal_context* context, const focal_mesh_params* given, R
   object->warnings = std::move(loaded.gltf.warnings);
   object->limits = how.limits;
   object->folder = std::move(loaded.folder);
-  finish(*object, std::move(loaded.gltf.mesh), params);
+  finish(*object, std::move(loaded.gltf.mesh), params, execution);
   running->report_warnings(object->warnings);
   return publish(object);
 }
@@ -266,8 +276,10 @@ focal_status focal_mesh_create(const focal_context* context, const focal_mesh_de
     const focal_mesh_desc description = read_struct(desc);
     const focal_mesh_params how = checked(params);
     check_desc(description, how);
+    const TaskLease lease(how.task);
     const auto object = std::make_shared<MeshObject>();
-    finish(*object, mesh_of(description, how.lenient != 0), how);
+    object->memory_budget = running->memory_budget;
+    finish(*object, mesh_of(description, how.lenient != 0), how, running->execution_with(lease.task()));
     running->report_warnings(object->warnings);
     *out_mesh = publish(object);
   });

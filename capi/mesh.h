@@ -18,6 +18,7 @@ struct MeshObject {
   using Handle = focal_mesh;
   static constexpr HandleType type = HandleType::mesh;
 
+  std::shared_ptr<const MemoryBudget> memory_budget;  // of its context
   std::shared_ptr<const PreparedMesh> mesh;
   std::vector<float> positions;  // vertex_count x 3, as the caller may read them
   double mean_edge_length = 0, surface_area = 0;

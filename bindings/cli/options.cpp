@@ -34,6 +34,11 @@ void add_common_options(CLI::App& verb, CommonOptions& options) {
       ->type_name("N")
       ->check(CLI::Range(0, 1024).description(""))
       ->group("Common");
+  verb.add_option("--memory-budget", options.memory_budget,
+                  "Fail rather than hold more memory than this, as 500MB or 2GB; 0: no limit")
+      ->type_name("SIZE")
+      ->transform(CLI::AsSizeValue(false).description(""))
+      ->group("Common");
   add_choice(verb, "--backend", options.backend, "Where to compute", "auto|cpu|cuda",
              {{"auto", FOCAL_BACKEND_AUTO}, {"cpu", FOCAL_BACKEND_CPU}, {"cuda", FOCAL_BACKEND_CUDA}});
   verb.get_option("--backend")->group("Common");
@@ -47,6 +52,7 @@ Context make_context(const CommonOptions& options) {
   auto params = initialised(focal_context_params_init);
   params.backend = options.backend;
   params.thread_count = options.threads;
+  params.memory_budget_bytes = options.memory_budget;
   Context context = owned<Context>(focal_context_create, &params);
   const focal_backend used = focal_context_backend(context.get());
   if (options.backend != FOCAL_BACKEND_AUTO && used != options.backend && !options.quiet) {

@@ -14,6 +14,7 @@ struct CommonOptions {
   bool json = false, lenient = false;
   bool quiet = false;
   int32_t threads = 0;
+  uint64_t memory_budget = 0;  // bytes; 0: none
   focal_backend backend = FOCAL_BACKEND_AUTO;
   std::optional<uint64_t> seed;
 

@@ -129,6 +129,10 @@ typedef struct focal_context_params {
   void* log_user_data;
   focal_parallel_for_fn parallel_for; /* may be NULL: focal starts and joins threads inside each call */
   void* parallel_for_user_data;
+  /* 0: no budget. Calls on this context, and on what was made with it, fail with OUT_OF_MEMORY rather than let
+   * the library hold more than this in the process, for all its contexts together. Not counted: threads' stacks, a GPU's
+   * memory, and what the library's own code takes (a few MB). docs/reliability.md tells what meshes need. */
+  uint64_t memory_budget_bytes;
 } focal_context_params;
 
 FOCAL_API focal_status focal_context_params_init(focal_context_params* params, size_t struct_size);
@@ -142,6 +146,9 @@ FOCAL_API focal_status focal_context_destroy(focal_context* context);
 FOCAL_API focal_backend focal_context_backend(const focal_context* context);
 FOCAL_API const char* focal_context_backend_reason(const focal_context* context);
 FOCAL_API int32_t focal_context_thread_count(const focal_context* context);
+/* Bytes that the library holds in the process now, for all contexts together: meshes, models, analyses, and what calls in
+ * other threads are at work on. */
+FOCAL_API uint64_t focal_context_memory_held(const focal_context* context);
 
 /* ---- Task [any thread] ---- */
 
@@ -202,6 +209,7 @@ typedef struct focal_mesh_params {
      focal_mesh_triangles gives 0 0 0 there, focal_mesh_positions 0 0 0 for a vertex at no place. Default 0 */
   int32_t lenient;
   int32_t reserved;
+  struct focal_task* task; /* cancels loading a large mesh; NULL: none */
 } focal_mesh_params;
 
 FOCAL_API focal_status focal_mesh_params_init(focal_mesh_params* params, size_t struct_size);

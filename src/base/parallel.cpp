@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/memory_budget.h"
 
 namespace focal {
 namespace {
@@ -37,8 +38,10 @@ void parallel_for(const Execution& execution, int64_t count, const std::function
   std::atomic<bool> failed{false};
   std::exception_ptr failure;
   std::mutex mutex;
+  const MemoryBudget* const budget = memory_budget();
   const auto guarded = [&](int64_t i) noexcept {
     if (failed.load(std::memory_order_relaxed)) return;
+    const KeepTo kept(budget);
     try {
       execution.check_cancelled();
       body(i);

@@ -200,7 +200,8 @@ void judge_shape(const LandmarkModel& model, const Lesson& lesson, int32_t id, b
 }
 
 // The same shape as a scanner spoils it (copy 0), or with a part missing: what such meshes look like has to be learned too.
-std::optional<MarkedShape> spoiled(const MarkedShape& shape, int32_t copy, Random random) {
+std::optional<MarkedShape> spoiled(const MarkedShape& shape, int32_t copy, Random random,
+                                   const Execution& execution) {
   constexpr int32_t smallest = 100;  // vertices that make a shape still, when some have gone
   DamagedMesh damaged = undamaged(shape.mesh->surface, shape.marks);
   if (copy > 0) {
@@ -214,10 +215,11 @@ std::optional<MarkedShape> spoiled(const MarkedShape& shape, int32_t copy, Rando
   } else {
     damaged = with_holes(with_noise(std::move(damaged), 0.3 * random.uniform(), random), 20, 2, random);
   }
+  execution.check_cancelled();
   if (damaged.mesh.vertex_count() < smallest ||
       damaged.mesh.triangle_count() < shape.mesh->surface.triangle_count() / 3)
     return std::nullopt;
-  MarkedShape result{std::make_shared<PreparedMesh>(prepare(std::move(damaged.mesh))), {}};
+  MarkedShape result{std::make_shared<PreparedMesh>(prepare(std::move(damaged.mesh), {}, execution)), {}};
   for (const auto& mark : damaged.marks) {
     result.marks.emplace_back();
     if (!mark) continue;
@@ -278,7 +280,8 @@ std::vector<Lessons> make_lessons(const TrainingSet& set, const TrainParams& par
     how.seed = params.seed, how.stream = static_cast<uint64_t>(s);
     if (copy == 0) {
       shapes[s].whole = make_lesson(set.shapes[s], how, execution.inner());
-    } else if (auto bad = spoiled(set.shapes[s], copy - 1, Random(params.seed, 5000 + i))) {
+    } else if (auto bad =
+                   spoiled(set.shapes[s], copy - 1, Random(params.seed, 5000 + i), execution.inner())) {
       how.max_samples = std::min(how.max_samples, spoiled_samples);
       spoiled_lessons[i] = make_lesson(*std::move(bad), how, execution.inner());
     }

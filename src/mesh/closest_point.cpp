@@ -72,7 +72,7 @@ void search(const TriangleMesh& mesh, std::span<const SurfaceQuery> queries, con
 // One pass over the triangles for all queries still open.
 void search_all(const TriangleMesh& mesh, std::span<const SurfaceQuery> queries, double radius,
                 std::vector<Nearest>& found, const Execution& execution) {
-  constexpr int64_t grain = 1 << 16;
+  constexpr int64_t grain = 1 << 15;  // some 30 ms
   std::vector<int32_t> open;
   for (size_t q = 0; q < queries.size(); ++q)
     if (found[q].point.triangle < 0) open.push_back(static_cast<int32_t>(q));

@@ -6,7 +6,6 @@
 #include <map>
 #include <numeric>
 #include <queue>
-#include <set>
 
 #include "mesh/components.h"
 
@@ -101,14 +100,17 @@ std::vector<char> triangles_without(const TriangleMesh& mesh, const std::vector<
 
 using Edge = std::pair<int32_t, int32_t>;
 
-// Directed edges without a triangle on their other side.
+// Directed edges without a triangle on their other side, sorted.
 std::vector<Edge> border_of(const TriangleMesh& mesh) {
-  std::set<Edge> directed;
+  std::vector<Edge> directed;
+  directed.reserve(static_cast<size_t>(mesh.triangles.size()));
   for (int32_t t = 0; t < mesh.triangle_count(); ++t)
-    for (int i = 0; i < 3; ++i) directed.emplace(mesh.triangles(t, i), mesh.triangles(t, (i + 1) % 3));
+    for (int i = 0; i < 3; ++i) directed.emplace_back(mesh.triangles(t, i), mesh.triangles(t, (i + 1) % 3));
+  std::sort(directed.begin(), directed.end());
+  directed.erase(std::unique(directed.begin(), directed.end()), directed.end());
   std::vector<Edge> border;
   for (const auto& [a, b] : directed)
-    if (!directed.contains({b, a})) border.emplace_back(a, b);
+    if (!std::binary_search(directed.begin(), directed.end(), Edge(b, a))) border.emplace_back(a, b);
   return border;
 }
 

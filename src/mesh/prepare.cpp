@@ -211,30 +211,37 @@ int64_t flipped_triangles(const PreparedMesh& mesh) {
   return std::count(mesh.flipped.begin(), mesh.flipped.end(), 1);
 }
 
-PreparedMesh prepare(TriangleMesh source, const PrepareParams& params) {
+PreparedMesh prepare(TriangleMesh source, const PrepareParams& params, const Execution& execution) {
   require_triangles(source);
   Invalid invalid;
   params.lenient ? void(invalid = replace_invalid(source)) : validate(source);
   PreparedMesh mesh;
   mesh.source = std::move(source);
   mesh.invalid_triangles = std::count(invalid.triangle.begin(), invalid.triangle.end(), 1);
+  execution.check_cancelled();
   std::vector<int32_t> first(mesh.source.vertex_count());
   std::iota(first.begin(), first.end(), 0);
   if (params.weld) first = weld(mesh.source.positions);
+  execution.check_cancelled();
   MatrixX3i corners = mesh.source.triangles.unaryExpr([&](int32_t v) { return first[v]; });
   mesh.source_triangle =
       kept_triangles(corners, mesh.source.vertex_count(), params.drop_degenerate, invalid.triangle);
+  execution.check_cancelled();
   build_surface(mesh, first, corners);
   forget(invalid.vertex, mesh);
   if (mesh.surface.vertex_count() < smallest_surface)
     throw Error(Status::mesh_too_small,
                 "the surface has " + std::to_string(mesh.surface.vertex_count()) + " different vertices",
                 "at least " + std::to_string(smallest_surface) + " are needed");
+  execution.check_cancelled();
   normalise(mesh);
   const Components components = components_of(mesh.surface);
   mesh.components = components.count;
+  execution.check_cancelled();
   if (params.bridge_components) mesh.bridges = bridge_pairs(mesh.surface, components);
+  execution.check_cancelled();
   if (params.repair_orientation) inspect(mesh);
+  execution.check_cancelled();
   warn(mesh);
   return mesh;
 }

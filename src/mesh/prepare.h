@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/parallel.h"
 #include "mesh/topology.h"
 #include "mesh/triangle_mesh.h"
 
@@ -45,8 +46,8 @@ struct PreparedMesh {
   std::vector<std::string> warnings;  // plain sentences on what was found and done
 };
 
-// Throws invalid_mesh (no triangles, index out of range, NaN or infinite position), mesh_too_small.
-PreparedMesh prepare(TriangleMesh source, const PrepareParams& params = {});
+// Throws invalid_mesh (no triangles, index out of range, NaN or infinite position), mesh_too_small, cancelled.
+PreparedMesh prepare(TriangleMesh source, const PrepareParams& params = {}, const Execution& execution = {});
 
 int64_t degenerate_triangles(const PreparedMesh& mesh);  // with a repeated corner, or repeated: left out
 int64_t flipped_triangles(const PreparedMesh& mesh);

@@ -77,6 +77,7 @@ static void check_context_params(void) {
   params.thread_count = 3;
   params.backend = 9;
   CHECK_REFUSED(focal_context_create(&params, &context), FOCAL_ERROR_INVALID_ARGUMENT, "backend is 9");
+  CHECK(focal_context_memory_held(NULL) == 0);
   params.backend = FOCAL_BACKEND_CUDA; /* missing or not, it must not fail */
   CHECK_OK(focal_context_create(&params, &context));
   CHECK(focal_context_thread_count(context) == 3);

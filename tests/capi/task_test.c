@@ -2,6 +2,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include <pthread.h>
 #include <stdatomic.h>
+#include <stdlib.h>
 #include <time.h>
 
 #include "check.h"
@@ -67,6 +68,28 @@ typedef struct second_call {
   char error[256];
 } second_call;
 
+static void check_mesh(const focal_context* context) {
+  shape body = shape_create(12, 0);
+  const focal_mesh_desc desc = shape_desc(&body);
+  focal_mesh_params params;
+  focal_mesh* mesh = NULL;
+  size_t size = 0;
+  unsigned char* file = shape_glb(&body, &size);
+  CHECK_OK(focal_mesh_params_init(&params, sizeof params));
+  CHECK_OK(focal_task_create(&params.task));
+  CHECK_OK(focal_mesh_create(context, &desc, &params, &mesh));
+  CHECK(focal_task_progress(params.task) == 1 && strcmp(focal_task_stage(params.task), "done") == 0);
+  focal_mesh_destroy(mesh);
+  CHECK_OK(focal_task_cancel(params.task));
+  CHECK_REFUSED(focal_mesh_create(context, &desc, &params, &mesh), FOCAL_ERROR_CANCELLED, "cancelled");
+  CHECK_REFUSED(focal_mesh_load_gltf_memory(context, file, size, &params, &mesh), FOCAL_ERROR_CANCELLED,
+                "cancelled");
+  CHECK_OK(focal_task_destroy(params.task));
+  CHECK_REFUSED(focal_mesh_create(context, &desc, &params, &mesh), FOCAL_ERROR_INVALID_HANDLE, "focal_task");
+  free(file);
+  shape_destroy(&body);
+}
+
 static void* train_again(void* data) {
   second_call* self = data;
   focal_model* model = NULL;
@@ -99,6 +122,7 @@ int main(void) {
   check_progress(set);
   check_early_cancel(set);
   check_busy(set);
+  check_mesh(context);
   focal_training_set_destroy(set);
   focal_context_destroy(context);
   FINISH();

@@ -126,7 +126,7 @@ TEST_CASE("every verb explains itself and has the common options") {
     const Run run = focal(verb + " --help");
     CHECK(run.status == 0);
     CHECK(run.err.empty());
-    for (const char* option : {"--json", "--quiet", "--threads", "--backend", "--seed"}) {
+    for (const char* option : {"--json", "--quiet", "--threads", "--memory-budget", "--backend", "--seed"}) {
       CHECK(run.out.find(option) != std::string::npos);
     }
   }
@@ -179,6 +179,15 @@ TEST_CASE("what cannot work is answered with 1, a message and a hint") {
   check_fails("convert " + (scratch / "egg0.glb") + " x.csv", "egg0.glb");
   check_fails("convert " + (scratch / "nowhere.csv") + " " + (scratch / "x.pp"), "nowhere.csv");
 }
+
+#if !defined(FOCAL_SANITIZED)  // whose allocator does not count for us
+TEST_CASE("a memory budget: enough, too little, no number") {
+  const std::string detect = "detect " + eggs().model() + " " + eggs().mesh() + " --quiet --memory-budget ";
+  CHECK(focal(detect + "200MB").status == 0);
+  check_fails(detect + "100KB", "the memory budget of 102400 bytes is too small");
+  CHECK(focal(detect + "much").status == 2);
+}
+#endif
 
 TEST_CASE("a mark on a vertex that is not there names mesh and landmark") {
   const ScratchFolder scratch;

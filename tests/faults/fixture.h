@@ -38,6 +38,9 @@ typedef struct scenario {
 extern const scenario scenarios[];
 extern const size_t scenario_count;
 const scenario* scenario_named(const char* name);
+int scenario_chosen(const scenario* what, int count, char** names); /* count 0: all are */
+/* The digest; ends the program when a call fails. */
+uint64_t scenario_run_well(const scenario* what, const fixture* f);
 
 /* The path of a file in the fixture's folder; valid until the next call. */
 const char* fixture_path(const fixture* f, const char* name);

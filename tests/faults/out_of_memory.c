@@ -31,14 +31,6 @@ static void tell_where(int number) {
   _exit(3);
 }
 
-static uint64_t run_well(const scenario* what, const fixture* f) {
-  uint64_t digest = 1;
-  const focal_status status = what->run(f, &digest);
-  if (status == FOCAL_OK) return digest;
-  fprintf(stderr, "%s: %s: %s\n", what->name, focal_status_name(status), focal_last_error());
-  exit(2);
-}
-
 static void complain(const char* why, focal_status status) {
   fprintf(stderr, "%s, allocation %ld%s: %s (%s: %s)\n", at_scenario, at_allocation,
           at_ever ? " and all after it" : "", why, focal_status_name(status), focal_last_error());
@@ -64,7 +56,7 @@ static void fail_one(const scenario* what, const fixture* f, uint64_t expected, 
     ++sum->leaks;
     complain("a leak", status);
   }
-  if (whole && run_well(what, f) != expected) {
+  if (whole && scenario_run_well(what, f) != expected) {
     ++sum->spoiled;
     complain("other results afterwards", status);
   }
@@ -75,9 +67,9 @@ static void fail_one(const scenario* what, const fixture* f, uint64_t expected, 
 static tally fail_each(const scenario* what, const fixture* f, long most, long only) {
   tally sum = {0};
   at_scenario = what->name;
-  run_well(what, f); /* what is kept from the first use on */
+  scenario_run_well(what, f); /* what is kept from the first use on */
   allocations_fail(0, 0);
-  const uint64_t expected = run_well(what, f);
+  const uint64_t expected = scenario_run_well(what, f);
   const long count = (long)allocations_spare(), tried = most > 0 && most < count ? most : count;
   for (at_ever = 0; at_ever <= 1; ++at_ever)
     for (long i = 0; i < tried; ++i) {
@@ -97,22 +89,16 @@ static tally fail_each(const scenario* what, const fixture* f, long most, long o
 
 /* Threads that cannot be started: the others do the work. */
 static void fail_threads(const scenario* what, const fixture* f, int threads, tally* sum) {
-  const uint64_t expected = run_well(what, f);
+  const uint64_t expected = scenario_run_well(what, f);
   for (int left = 0; left < threads; ++left) {
     threads_fail_after(left);
     ++sum->faults;
-    if (run_well(what, f) == expected)
+    if (scenario_run_well(what, f) == expected)
       ++sum->done_without;
     else
       ++sum->wrong, fprintf(stderr, "%s: other results with %d threads started\n", what->name, left);
     threads_fail_after(-1);
   }
-}
-
-static int chosen(const scenario* what, int count, char** names) {
-  for (int i = 0; i < count; ++i)
-    if (strcmp(names[i], what->name) == 0) return 1;
-  return count == 0;
 }
 
 int main(int argc, char** argv) {
@@ -134,7 +120,7 @@ int main(int argc, char** argv) {
   tally all = {0};
   size_t used = 0;
   for (size_t i = 0; i < scenario_count; ++i) {
-    if (!chosen(&scenarios[i], argc - at, argv + at)) continue;
+    if (!scenario_chosen(&scenarios[i], argc - at, argv + at)) continue;
     tally one = fail_each(&scenarios[i], &f, most, only);
     if (params.thread_count > 1) fail_threads(&scenarios[i], &f, params.thread_count, &one);
     ++used;

@@ -20,6 +20,8 @@ fi
 run "$programs/focal_same_bits" 7
 [ -x "$programs/focal_out_of_memory" ] || exit "$failed"  # a build with sanitizers
 run "$programs/focal_same_bits" 30
+run "$programs/focal_memory_budget" --steps 40
+run "$programs/focal_memory_budget" --steps 10 --rings 30 --threads 4
 run "$programs/focal_files" 200
 run "$programs/focal_cycles" "$build/capi/libfocal.so" 1000 100
 run "$programs/focal_out_of_memory" --most 50 --threads 4

@@ -1,3 +1,4 @@
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -337,4 +338,18 @@ const scenario* scenario_named(const char* name) {
   for (size_t i = 0; i < scenario_count; ++i)
     if (strcmp(scenarios[i].name, name) == 0) return &scenarios[i];
   return NULL;
+}
+
+int scenario_chosen(const scenario* what, int count, char** names) {
+  for (int i = 0; i < count; ++i)
+    if (strcmp(names[i], what->name) == 0) return 1;
+  return count == 0;
+}
+
+uint64_t scenario_run_well(const scenario* what, const fixture* f) {
+  uint64_t digest = 1;
+  const focal_status status = what->run(f, &digest);
+  if (status == FOCAL_OK) return digest;
+  fprintf(stderr, "%s: %s: %s\n", what->name, focal_status_name(status), focal_last_error());
+  exit(2);
 }

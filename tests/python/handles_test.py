@@ -14,7 +14,7 @@ Status = focal.Status
 
 # What is asked of a closed object: a name of its class, and arguments that would do. None: a property.
 USES = {
-    "Context": {"backend": None, "backend_reason": None, "thread_count": None},
+    "Context": {"backend": None, "backend_reason": None, "thread_count": None, "memory_held": None},
     "Task": {"cancel": (), "reset": (), "progress": None, "stage": None, "cancelled": None},
     "Mesh": {"info": None, "vertex_count": None, "triangle_count": None, "surface_area": None, "vertices": None,
              "faces": None, "warnings": None, "position_of": ((0, (1, 0, 0)),), "point_at_vertex": (0,)},
@@ -153,6 +153,16 @@ class Contexts(Case):
         for name, value in (("thread_count", "4"), ("backend", 1.0), ("log", 3)):
             with self.assertRaisesRegex(TypeError, name):
                 focal.Context(**{name: value})
+
+    def test_memory_budget(self):
+        vertices, faces, _ = shape()
+        with focal.Context(memory_budget_bytes=1) as context:
+            with self.assertRaisesRegex(focal.Error, "memory budget of 1 bytes") as caught:
+                focal.Mesh(vertices, faces, context=context)
+            self.assertEqual(caught.exception.code, Status.OUT_OF_MEMORY)
+            before = context.memory_held
+            with focal.Mesh(vertices, faces):  # the default context has no budget
+                self.assertGreater(context.memory_held, before + 12 * len(vertices))
 
     def test_log(self):
         said = []

@@ -127,6 +127,7 @@ class focal_context_params(Structure):
         ("log_user_data", c_void_p),
         ("parallel_for", focal_parallel_for_fn),
         ("parallel_for_user_data", c_void_p),
+        ("memory_budget_bytes", c_uint64),
     ]
 
 
@@ -154,6 +155,7 @@ class focal_mesh_params(Structure):
         ("pose_time", c_double),
         ("lenient", c_int32),
         ("reserved", c_int32),
+        ("task", P(focal_task)),
     ]
 
 
@@ -350,6 +352,7 @@ FUNCTIONS = {
     "focal_context_backend": (c_int32, [P(focal_context)]),
     "focal_context_backend_reason": (c_char_p, [P(focal_context)]),
     "focal_context_thread_count": (c_int32, [P(focal_context)]),
+    "focal_context_memory_held": (c_uint64, [P(focal_context)]),
     "focal_task_create": (c_int32, [P(P(focal_task))]),
     "focal_task_destroy": (c_int32, [P(focal_task)]),
     "focal_task_cancel": (c_int32, [P(focal_task)]),

@@ -34,6 +34,8 @@ class Context(Handle):
     thread_count  threads that one call may use, 0..1024; None or 0: one a core. Results are the same for any number
     backend       focal.Backend or its name: "auto", "cpu", "cuda"
     device_index  of the GPU, from 0
+    memory_budget_bytes  calls fail with Status.OUT_OF_MEMORY rather than let the library hold more than this in the process;
+                  None or 0: no budget
     log           log(level: focal.LogLevel, message: str), called while a focal call runs, on the thread that runs it,
                   which may not be the one that made the call. It must not raise
     """
@@ -42,9 +44,10 @@ class Context(Handle):
     _number = 0
 
     def __init__(self, *, thread_count: int | None = None, backend: _abi.Backend | str | None = None,
-                 device_index: int | None = None, log: Callable[[_abi.LogLevel, str], Any] | None = None) -> None:
+                 device_index: int | None = None, memory_budget_bytes: int | None = None,
+                 log: Callable[[_abi.LogLevel, str], Any] | None = None) -> None:
         params = fill(new(_abi.focal_context_params), thread_count=thread_count, backend=backend,
-                      device_index=device_index)
+                      device_index=device_index, memory_budget_bytes=memory_budget_bytes)
         if log is not None:
             if not callable(log):
                 raise TypeError(f"log must be callable, not {type(log).__name__}")
@@ -73,6 +76,11 @@ class Context(Handle):
     def thread_count(self) -> int:
         """The number of threads that a call may use."""
         return library().focal_context_thread_count(self._handle)
+
+    @property
+    def memory_held(self) -> int:
+        """Bytes that the library holds in this process now, for all contexts together."""
+        return library().focal_context_memory_held(self._handle)
 
 
 def context_or_default(context: Context | None) -> Context:

@@ -11,6 +11,7 @@ from ._arrays import block_of, copied
 from ._context import Context, context_or_default
 from ._handle import Handle
 from ._library import call, create, last_error, library
+from ._task import Task, run
 from ._values import SurfacePoint, as_dict, fill, integer, new, path_text, point_of, real
 
 Mark = Union[int, SurfacePoint, None]
@@ -30,6 +31,7 @@ class Mesh(Handle):
     lenient            leave out triangles with a NaN or infinite corner or a vertex number out of range, with a
                        warning, instead of raising an error. Default False
     max_vertices, max_triangles  larger meshes are refused. Defaults 5,000,000 and 10,000,000
+    task               cancels the work on a large mesh, see focal.Task
 
     Blocks of numbers may be NumPy arrays, anything NumPy takes, buffers such as array.array, or sequences; flat ones
     are read three numbers at a time. Raises TypeError and ValueError for what is no such block; Error with
@@ -43,7 +45,7 @@ class Mesh(Handle):
     def __init__(self, vertices: Any, faces: Any, *, weld: bool | None = None, drop_degenerate: bool | None = None,
                  bridge_components: bool | None = None, lenient: bool | None = None,
                  max_vertices: int | None = None, max_triangles: int | None = None,
-                 context: Context | None = None) -> None:
+                 context: Context | None = None, task: Task | None = None) -> None:
         positions = block_of(vertices, "vertices", "f", 3)
         indices = block_of(faces, "faces", "I", 3)
         running = context_or_default(context)
@@ -53,8 +55,7 @@ class Mesh(Handle):
         params = fill(new(_abi.focal_mesh_params), weld=weld, drop_degenerate=drop_degenerate,
                       bridge_components=bridge_components, lenient=lenient, max_vertices=max_vertices,
                       max_triangles=max_triangles)
-        self._take(create("focal_mesh_create", _abi.focal_mesh, running._handle, ctypes.byref(desc),
-                          ctypes.byref(params)), running)
+        self._take(_made(params, task, "focal_mesh_create", running._handle, ctypes.byref(desc)), running)
 
     @classmethod
     def load(cls, path: str | os.PathLike[str], *, weld: bool | None = None, drop_degenerate: bool | None = None,
@@ -63,12 +64,13 @@ class Mesh(Handle):
              keep_source_file: bool | None = None, max_vertices: int | None = None,
              max_triangles: int | None = None, max_nodes: int | None = None, max_json_bytes: int | None = None,
              max_file_bytes: int | None = None, pose_animation: str | None = None, pose_time: float | None = None,
-             context: Context | None = None) -> Mesh:
+             context: Context | None = None, task: Task | None = None) -> Mesh:
         """A glTF scene (.glb or .gltf) as one mesh, node transforms applied, skins at bind pose.
 
         allow_external_files  also read .bin files beside a .gltf, inside its folder only. Default False
         keep_source_file      keep the file's bytes, so that results can be written into it. Default True
         max_nodes, max_json_bytes, max_file_bytes  larger files are refused. Defaults 1,000,000, 64 MiB, 2 GiB
+        task                  cancels loading a large file, see focal.Task
         pose_animation, pose_time  the name of an animation, and seconds: skinned meshes come in that pose. Such a
                                    mesh keeps no file
 
@@ -80,8 +82,7 @@ class Mesh(Handle):
                       max_nodes=max_nodes, max_json_bytes=max_json_bytes, max_file_bytes=max_file_bytes,
                       pose_animation=pose_animation, pose_time=pose_time)
         file, running = path_text(path), context_or_default(context)
-        return cls._adopt(create("focal_mesh_load_gltf", _abi.focal_mesh, running._handle, file,
-                                 ctypes.byref(params)), running)
+        return cls._adopt(_made(params, task, "focal_mesh_load_gltf", running._handle, file), running)
 
     @classmethod
     def from_bytes(cls, data: Any, *, weld: bool | None = None, drop_degenerate: bool | None = None,
@@ -90,7 +91,7 @@ class Mesh(Handle):
                    max_vertices: int | None = None, max_triangles: int | None = None, max_nodes: int | None = None,
                    max_json_bytes: int | None = None, max_file_bytes: int | None = None,
                    pose_animation: str | None = None, pose_time: float | None = None,
-                   context: Context | None = None) -> Mesh:
+                   context: Context | None = None, task: Task | None = None) -> Mesh:
         """The same from the bytes of a file (bytes-like); external files are refused."""
         params = fill(new(_abi.focal_mesh_params), weld=weld, drop_degenerate=drop_degenerate,
                       bridge_components=bridge_components, lenient=lenient, keep_source_file=keep_source_file,
@@ -98,8 +99,8 @@ class Mesh(Handle):
                       max_json_bytes=max_json_bytes, max_file_bytes=max_file_bytes, pose_animation=pose_animation,
                       pose_time=pose_time)
         memory, running = bytes_of(data), context_or_default(context)
-        return cls._adopt(create("focal_mesh_load_gltf_memory", _abi.focal_mesh, running._handle, memory, len(memory),
-                                 ctypes.byref(params)), running)
+        return cls._adopt(_made(params, task, "focal_mesh_load_gltf_memory", running._handle, memory, len(memory)),
+                          running)
 
     @property
     def info(self) -> dict[str, Any]:
@@ -158,6 +159,14 @@ class Mesh(Handle):
         number = integer(vertex, "vertex", ctypes.c_uint32)
         call("focal_mesh_point_at_vertex", self._handle, number, ctypes.byref(out))
         return point_of(out)  # type: ignore[return-value]
+
+
+def _made(params: Any, task: Task | None, function: str, *arguments: Any) -> Any:
+    """The new mesh's handle."""
+    def make(task_handle: Any) -> Any:
+        params.task = task_handle
+        return create(function, _abi.focal_mesh, *arguments, ctypes.byref(params))
+    return make(None) if task is None else run(make, task, None)
 
 
 def bytes_of(data: Any) -> bytes:
