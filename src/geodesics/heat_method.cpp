@@ -73,14 +73,15 @@ HeatMethod::HeatMethod(const TriangleMesh& mesh, const Operators& operators, con
                        double time_factor, bool keep_negative_heat)
     : Distance(mesh), keep_negative_heat_(keep_negative_heat) {
   execution.check_cancelled();
-  const auto symbolic = std::make_shared<const SymbolicFactor>(analyse_pattern(operators.L));
+  const auto symbolic = std::make_shared<const SymbolicFactor>(analyse_pattern(operators.L, {}, execution));
   parallel_for(execution, 2, [&](int64_t part) {
     if (part == 0) {
       choose_time(mesh, operators, time_factor);
-      heat_ = SparseCholesky(plus_diagonal(time_ * operators.L, operators.mass), symbolic);
+      heat_ = SparseCholesky(plus_diagonal(time_ * operators.L, operators.mass), symbolic, execution);
     } else {  // The shift makes L definite. The constant mode is amplified by its inverse: 1e-6 leaves the float solve
       // five digits.
-      poisson_ = SparseCholesky(plus_diagonal(operators.L, 1e-6 / operators.area * operators.mass), symbolic);
+      poisson_ = SparseCholesky(plus_diagonal(operators.L, 1e-6 / operators.area * operators.mass), symbolic,
+                                execution);
     }
   });
   execution.check_cancelled();

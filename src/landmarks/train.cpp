@@ -211,7 +211,7 @@ std::optional<MarkedShape> spoiled(const MarkedShape& shape, int32_t copy, Rando
     if (marks.empty()) return std::nullopt;
     const SurfacePoint& centre = marks[random.below(static_cast<uint32_t>(marks.size()))];
     damaged = cut_ball(std::move(damaged), centre, 0.15 + 0.25 * random.uniform(),
-                       copy == 1 ? CutEnd::open : CutEnd::capped);
+                       copy == 1 ? CutEnd::open : CutEnd::capped, execution);
   } else {
     damaged = with_holes(with_noise(std::move(damaged), 0.3 * random.uniform(), random), 20, 2, random);
   }

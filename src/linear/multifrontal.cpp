@@ -60,8 +60,9 @@ class Multifrontal {
       if (symbolic.row_count(s) > 0) children_[supernode_of[rows(s)[0]]].push_back(s);
   }
 
-  void run(double* values) {
+  void run(double* values, const Execution& execution) {
     for (int32_t s = 0; s < symbolic_.supernodes(); ++s) {
+      execution.check_cancelled();
       const int64_t width = symbolic_.width(s), size = width + symbolic_.row_count(s);
       Front front(size);
       gather(s, front);
@@ -115,11 +116,12 @@ class Multifrontal {
 
 }  // namespace
 
-std::vector<double> factorise(const SymbolicFactor& symbolic, const SparseMatrix& A) {
+std::vector<double> factorise(const SymbolicFactor& symbolic, const SparseMatrix& A,
+                              const Execution& execution) {
   if (A.cols() != symbolic.size())
     throw Error(Status::internal, "a matrix does not have the size it was analysed for", "report this");
   std::vector<double> values(symbolic.value_start.back(), 0.0);
-  Multifrontal(symbolic, A).run(values.data());
+  Multifrontal(symbolic, A).run(values.data(), execution);
   return values;
 }
 

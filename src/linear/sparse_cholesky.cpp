@@ -5,14 +5,17 @@
 
 namespace focal {
 
-SparseCholesky::SparseCholesky(const SparseMatrix& A)
-    : SparseCholesky(A, std::make_shared<const SymbolicFactor>(analyse_pattern(A))) {}
+SparseCholesky::SparseCholesky(const SparseMatrix& A, const Execution& execution)
+    : SparseCholesky(A, std::make_shared<const SymbolicFactor>(analyse_pattern(A, {}, execution)),
+                     execution) {}
 
-SparseCholesky::SparseCholesky(const SparseMatrix& A, const SparseCholesky& same_pattern)
-    : SparseCholesky(A, same_pattern.symbolic_) {}
+SparseCholesky::SparseCholesky(const SparseMatrix& A, const SparseCholesky& same_pattern,
+                               const Execution& execution)
+    : SparseCholesky(A, same_pattern.symbolic_, execution) {}
 
-SparseCholesky::SparseCholesky(const SparseMatrix& A, std::shared_ptr<const SymbolicFactor> symbolic)
-    : symbolic_(std::move(symbolic)), values_(factorise(*symbolic_, A)) {
+SparseCholesky::SparseCholesky(const SparseMatrix& A, std::shared_ptr<const SymbolicFactor> symbolic,
+                               const Execution& execution)
+    : symbolic_(std::move(symbolic)), values_(factorise(*symbolic_, A, execution)) {
   inverse_diagonal_.resize(size());
   for (int32_t s = 0; s < symbolic_->supernodes(); ++s) {
     const int64_t width = symbolic_->width(s), rows = width + symbolic_->row_count(s);

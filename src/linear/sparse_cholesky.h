@@ -17,12 +17,13 @@ class SparseCholesky {
   static constexpr int lanes = 32;
 
   SparseCholesky() = default;
-  // Only the lower triangle of A is read. Throws not_converged when A is not positive definite.
-  explicit SparseCholesky(const SparseMatrix& A);
+  // Only the lower triangle of A is read. Throws not_converged when A is not positive definite, and cancelled.
+  explicit SparseCholesky(const SparseMatrix& A, const Execution& execution = {});
   // The same for an A with entries in the same places as that of `same_pattern`, or in some of them: its order
   // and analysis are shared.
-  SparseCholesky(const SparseMatrix& A, const SparseCholesky& same_pattern);
-  SparseCholesky(const SparseMatrix& A, std::shared_ptr<const SymbolicFactor> symbolic);
+  SparseCholesky(const SparseMatrix& A, const SparseCholesky& same_pattern, const Execution& execution = {});
+  SparseCholesky(const SparseMatrix& A, std::shared_ptr<const SymbolicFactor> symbolic,
+                 const Execution& execution = {});
 
   int32_t size() const { return symbolic_ ? symbolic_->size() : 0; }
   // Numbers stored: those of the factor, and a few zeros that make supernodes wider.

@@ -92,9 +92,12 @@ class Supernodes {
     int64_t zeros = 0;  // stored entries that are not in the factor
   };
 
-  explicit Supernodes(const Pattern& pattern)
+  Supernodes(const Pattern& pattern, const Execution& execution)
       : pattern_(pattern), n_(static_cast<int32_t>(pattern.start.size()) - 1), mark_(n_, -1), waiting_(n_) {
-    for (int32_t j = 0; j < n_; ++j) add_column(j);
+    for (int32_t j = 0; j < n_; ++j) {
+      if (j % 4096 == 0) execution.check_cancelled();
+      add_column(j);
+    }
     merge();
   }
   const std::vector<Node>& nodes() const { return nodes_; }
@@ -156,15 +159,17 @@ class Supernodes {
 
 }  // namespace
 
-SymbolicFactor analyse_pattern(const SparseMatrix& A, std::vector<int32_t> order) {
+SymbolicFactor analyse_pattern(const SparseMatrix& A, std::vector<int32_t> order,
+                               const Execution& execution) {
   if (order.empty()) order = minimum_degree(A);
+  execution.check_cancelled();
   const std::vector<int32_t> place = postorder(elimination_tree(A, order));
   for (int32_t& i : order) i = place[i];
   const Pattern pattern = permuted_pattern(A, order);
   SymbolicFactor factor;
   factor.permutation = std::move(order);
   factor.first_column = {0}, factor.row_start = {0}, factor.value_start = {0};
-  const Supernodes supernodes(pattern);
+  const Supernodes supernodes(pattern, execution);
   for (const auto& node : supernodes.nodes()) {
     factor.first_column.push_back(node.first + node.width);
     factor.rows.insert(factor.rows.end(), node.rows.begin(), node.rows.end());

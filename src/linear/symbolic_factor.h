@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/matrix.h"
+#include "base/parallel.h"
 
 namespace focal {
 
@@ -23,6 +24,7 @@ struct SymbolicFactor {
 
 // order: [old] = new, or empty for approximate minimum degree. Only the lower triangle of A is looked at. The
 // order within the result may differ from the given one, but not in what it fills.
-SymbolicFactor analyse_pattern(const SparseMatrix& A, std::vector<int32_t> order = {});
+SymbolicFactor analyse_pattern(const SparseMatrix& A, std::vector<int32_t> order = {},
+                               const Execution& execution = {});
 
 }  // namespace focal

@@ -155,14 +155,17 @@ void cap(DamagedMesh& damaged, std::vector<Edge> old_border) {
   }
 }
 
-DamagedMesh cut(DamagedMesh damaged, const std::vector<char>& lost, CutEnd end) {
+DamagedMesh cut(DamagedMesh damaged, const std::vector<char>& lost, CutEnd end,
+                const Execution& execution = {}) {
   std::vector<Edge> old_border;
   if (end == CutEnd::capped)
     for (const auto& [a, b] : border_of(damaged.mesh))
       old_border.emplace_back(damaged.old_vertex[a], damaged.old_vertex[b]);
   std::sort(old_border.begin(), old_border.end());
+  execution.check_cancelled();
   const std::vector<char> stays = triangles_without(damaged.mesh, lost);
   damaged = keep_triangles(std::move(damaged), stays);
+  execution.check_cancelled();
   if (end == CutEnd::capped) cap(damaged, std::move(old_border));
   return damaged;
 }
@@ -239,11 +242,15 @@ DamagedMesh cut_beyond(DamagedMesh damaged, const Vector3& point, const Vector3&
   return cut(std::move(damaged), lost, end);
 }
 
-DamagedMesh cut_ball(DamagedMesh damaged, const SurfacePoint& centre, double radius, CutEnd end) {
+DamagedMesh cut_ball(DamagedMesh damaged, const SurfacePoint& centre, double radius, CutEnd end,
+                     const Execution& execution) {
   const Vector lengths = edge_path_lengths(damaged.mesh, centre, radius);
   std::vector<char> lost(damaged.mesh.vertex_count());
   for (size_t v = 0; v < lost.size(); ++v) lost[v] = lengths[static_cast<Eigen::Index>(v)] < radius;
-  return without_crumbs(cut(std::move(damaged), lost, end));
+  execution.check_cancelled();
+  damaged = cut(std::move(damaged), lost, end, execution);
+  execution.check_cancelled();
+  return without_crumbs(std::move(damaged));
 }
 
 DamagedMesh moved(DamagedMesh damaged, const Matrix4& map) {

@@ -15,6 +15,7 @@
 #include <span>
 #include <vector>
 
+#include "base/parallel.h"
 #include "base/random.h"
 #include "mesh/triangle_mesh.h"
 
@@ -45,7 +46,9 @@ enum class CutEnd { open, capped };  // capped: a fan over each new border
 DamagedMesh cut_beyond(DamagedMesh damaged, const Vector3& point, const Vector3& normal, CutEnd end);
 // Loses every vertex nearer than radius to centre along the surface's edges (so up to a tenth less than the geodesic
 // ball): a limb, by a mark at its tip. Crumbs that this leaves, below a hundredth of the triangles, go too.
-DamagedMesh cut_ball(DamagedMesh damaged, const SurfacePoint& centre, double radius, CutEnd end);
+// Throws cancelled.
+DamagedMesh cut_ball(DamagedMesh damaged, const SurfacePoint& centre, double radius, CutEnd end,
+                     const Execution& execution = {});
 
 // About factor times the vertices: below 1 decimated by quadric error, above 1 the longest edges split at random places
 // along them, which leaves the surface as it is. old_triangle of a decimated mesh is -1 throughout.

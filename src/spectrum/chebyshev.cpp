@@ -86,9 +86,11 @@ double norm_bound(const SparseMatrix& A) {
 // The first shift follows Weyl's law, but needles have eigenvalues far above it, and a surface in many parts
 // has many near zero: a shift far too small drowns the last columns in rounding noise, one far too large
 // cannot tell them apart.
-void follow_spectrum(ShiftedFactor& factor, const StandardProblem& problem, double last) {
+void follow_spectrum(ShiftedFactor& factor, const StandardProblem& problem, double last,
+                     const Execution& execution) {
   const double shift = std::max(shift_over_last * last, 1e-2 * problem.scale);
-  if (shift > 5 * factor.shift || 5 * shift < factor.shift) factor = factor.with_shift(problem.A, shift);
+  if (shift > 5 * factor.shift || 5 * shift < factor.shift)
+    factor = factor.with_shift(problem.A, shift, execution);
 }
 
 // |A x - lambda x| / lambda of the wanted pairs. The zero eigenvalue is weighed against a thousandth of the
@@ -117,7 +119,7 @@ Eigenbasis chebyshev_eigenpairs(const StandardProblem& problem, const Execution&
   const double columns_per_wanted = static_cast<double>(blocks * lanes) / count;
   double last =
       10 * problem.scale * columns_per_wanted;  // the last column's eigenvalue, as well as it is known
-  ShiftedFactor factor(problem.A, shift_over_last * last, problem.symbolic);
+  ShiftedFactor factor(problem.A, shift_over_last * last, problem.symbolic, execution);
   const Columns X = random_columns(n, blocks, execution);
   const Convergence convergence(problem.A, problem.tolerance);
   Vector lambda, residuals;
@@ -126,7 +128,7 @@ Eigenbasis chebyshev_eigenpairs(const StandardProblem& problem, const Execution&
     if (round == max_rounds || !std::isfinite(residual))
       throw Error(Status::not_converged, "the eigenvalues of the surface did not converge",
                   "ask for fewer eigenpairs, or repair the mesh first");
-    if (round > 1) follow_spectrum(factor, problem, lambda(lambda.size() - 1));
+    if (round > 1) follow_spectrum(factor, problem, lambda(lambda.size() - 1), execution);
     const Filter filter{1 / (last + factor.shift), factor.shift};
     // Float solves as long as they help; where A is too ill-conditioned for them, double ones.
     const bool in_float = round <= 1 || residual < 0.1 * previous;
@@ -149,8 +151,10 @@ Eigenbasis chebyshev_eigenpairs(const StandardProblem& problem, const Execution&
     execution.report(1 - std::pow(0.5, round + 1));
   }
   Eigenbasis basis{lambda.head(count), Matrix(n, count)};
-  for (int j = 0; j < count; ++j)
-    for (int32_t i = 0; i < n; ++i) basis.Phi(i, j) = X(factor.cholesky.permutation()[i], j);
+  const auto& order = factor.cholesky.permutation();
+  parallel_for(execution, count, [&](int64_t j) {
+    for (int32_t i = 0; i < n; ++i) basis.Phi(i, j) = X(order[i], static_cast<int>(j));
+  });
   return basis;
 }
 

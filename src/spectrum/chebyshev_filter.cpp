@@ -88,19 +88,20 @@ void correct(const Filter& filter, int degree, const ShiftedFactor& factor, cons
 }  // namespace
 
 ShiftedFactor::ShiftedFactor(const SparseMatrix& original, double shift_,
-                             std::shared_ptr<const SymbolicFactor> symbolic)
+                             std::shared_ptr<const SymbolicFactor> symbolic, const Execution& execution)
     : shift(shift_),
-      cholesky(symbolic ? SparseCholesky(shifted(original, shift), std::move(symbolic))
-                        : SparseCholesky(shifted(original, shift))) {
+      cholesky(symbolic ? SparseCholesky(shifted(original, shift), std::move(symbolic), execution)
+                        : SparseCholesky(shifted(original, shift), execution)) {
   Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int32_t> order(cholesky.size());
   std::copy(cholesky.permutation().begin(), cholesky.permutation().end(), order.indices().data());
   A = original.twistedBy(order);
 }
 
-ShiftedFactor ShiftedFactor::with_shift(const SparseMatrix& original, double other) const {
+ShiftedFactor ShiftedFactor::with_shift(const SparseMatrix& original, double other,
+                                        const Execution& execution) const {
   ShiftedFactor factor = *this;
   factor.shift = other;
-  factor.cholesky = SparseCholesky(shifted(original, other), cholesky);
+  factor.cholesky = SparseCholesky(shifted(original, other), cholesky, execution);
   return factor;
 }
 

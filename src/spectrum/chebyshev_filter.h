@@ -12,9 +12,10 @@ struct ShiftedFactor {
   SparseMatrix A;
 
   // symbolic: the analysis of the matrix where it is known, or null.
-  ShiftedFactor(const SparseMatrix& original, double shift, std::shared_ptr<const SymbolicFactor> symbolic);
+  ShiftedFactor(const SparseMatrix& original, double shift, std::shared_ptr<const SymbolicFactor> symbolic,
+                const Execution& execution);
   // The same matrix with another shift.
-  ShiftedFactor with_shift(const SparseMatrix& original, double shift) const;
+  ShiftedFactor with_shift(const SparseMatrix& original, double shift, const Execution& execution) const;
 };
 
 // T_degree(2 nu / cut - 1), nu = 1 / (lambda + shift): at most 1 for nu below the cut, growing fast above.

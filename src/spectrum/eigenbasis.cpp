@@ -12,12 +12,10 @@ namespace focal {
 namespace {
 
 // Eigenvectors have no sign of their own: make the entry of largest magnitude positive.
-void fix_signs(Matrix& Phi) {
-  for (Eigen::Index j = 0; j < Phi.cols(); ++j) {
-    Eigen::Index largest;
-    Phi.col(j).cwiseAbs().maxCoeff(&largest);
-    if (Phi(largest, j) < 0) Phi.col(j) = -Phi.col(j);
-  }
+void fix_sign(Eigen::Ref<Vector> phi) {
+  Eigen::Index largest;
+  phi.cwiseAbs().maxCoeff(&largest);
+  if (phi(largest) < 0) phi = -phi;
 }
 
 // A tenth of Weyl's law, lambda_k = 4 pi k / area, for the last wanted pair.
@@ -47,8 +45,10 @@ Eigenbasis eigenbasis(const SparseMatrix& L, const Vector& mass, const EigenPara
                      : params.method == EigenMethod::chebyshev ? chebyshev_eigenpairs(problem, execution)
                                                                : lanczos_eigenpairs(problem, execution);
   basis.lambda = basis.lambda.cwiseMax(0);
-  basis.Phi = inverse_root_mass.asDiagonal() * basis.Phi;
-  fix_signs(basis.Phi);
+  parallel_for(execution, basis.Phi.cols(), [&](int64_t j) {
+    basis.Phi.col(j).array() *= inverse_root_mass.array();
+    fix_sign(basis.Phi.col(j));
+  });
   execution.report(1);
   return basis;
 }
