@@ -118,7 +118,7 @@ void HeatMethod::sort_faces(const Operators& operators) {
   }
 }
 
-void HeatMethod::solve_block(std::span<const Source> sources, float* out, const Execution&) const {
+void HeatMethod::solve_block(std::span<const Source> sources, float* out, const Execution& execution) const {
   const int32_t n = vertex_count();
   const size_t size = static_cast<size_t>(n) * lanes;
   const auto& row = heat_.permutation();
@@ -133,13 +133,16 @@ void HeatMethod::solve_block(std::span<const Source> sources, float* out, const 
       heat[static_cast<size_t>(row[source.vertex[i]]) * lanes + j] += source.weight[i];
   }
   heat_.solve_block(heat);
+  execution.check_cancelled();
   std::fill(distance, distance + size, 0.0f);
   const Faces faces{faces_.data(), face_coefficient_.data(), faces_.rows()};
   if (keep_negative_heat_)
     add_faces_signed(faces, heat, distance);
   else
     add_faces(faces, heat, distance);
+  execution.check_cancelled();
   poisson_.solve_block(distance);
+  execution.check_cancelled();
   float zero
       [lanes];  // the level that is distance 0: at the corners round a source it lies as far below as they are away
   for (int j = 0; j < lanes; ++j) {

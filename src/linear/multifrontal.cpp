@@ -122,6 +122,7 @@ std::vector<double> factorise(const SymbolicFactor& symbolic, const SparseMatrix
     throw Error(Status::internal, "a matrix does not have the size it was analysed for", "report this");
   std::vector<double> values(symbolic.value_start.back(), 0.0);
   Multifrontal(symbolic, A).run(values.data(), execution);
+  execution.check_cancelled();
   return values;
 }
 

@@ -75,6 +75,7 @@ void correct(const Filter& filter, int degree, const ShiftedFactor& factor, cons
     for (int j = 0; j < lanes; ++j)
       before[j] = std::exchange(chebyshev[j], 2 * t[j] * chebyshev[j] - before[j]);
   }
+  execution.check_cancelled();
   factor.cholesky.solve_block(f.current.data());
   for (int64_t i = 0; i < n; ++i)
     for (int j = 0; j < lanes; ++j) {
@@ -92,6 +93,7 @@ ShiftedFactor::ShiftedFactor(const SparseMatrix& original, double shift_,
     : shift(shift_),
       cholesky(symbolic ? SparseCholesky(shifted(original, shift), std::move(symbolic), execution)
                         : SparseCholesky(shifted(original, shift), execution)) {
+  execution.check_cancelled();
   Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int32_t> order(cholesky.size());
   std::copy(cholesky.permutation().begin(), cholesky.permutation().end(), order.indices().data());
   A = original.twistedBy(order);
