@@ -1,4 +1,4 @@
-// The numbers an accessor stands for (glTF 2.0, section 3.6.2). The extents were checked by parse_gltf.
+// The numbers an accessor stands for (glTF 2.0, section 3.6.2). Counts, types and extents were checked by parse_gltf.
 #include "gltf/accessor.h"
 
 #include <algorithm>
@@ -71,24 +71,22 @@ RowMatrix entries(const Source& source, const Element& element, int64_t count) {
 }
 
 // The data `owner` (an accessor, or an end of a sparse one) points at.
-Source source_of(const json& root, GltfBuffers& buffers, const json& owner, const Place& place, int64_t size,
+Source source_of(const json& root, GltfBuffers& buffers, const json& owner, int64_t size,
                  bool may_be_strided) {
-  const int64_t view = integer(owner, "bufferView", place, 0, kMostBytes);
-  const int64_t offset = integer(owner, "byteOffset", place, 0, kMostBytes, 0);
+  const int64_t view = checked_integer(owner, "bufferView"), offset = checked_integer(owner, "byteOffset");
   const json& entry = list(root, "bufferViews")[static_cast<size_t>(view)];
-  const int64_t stride = may_be_strided ? integer(entry, "byteStride", place, 4, 252, size) : size;
+  const int64_t stride = may_be_strided ? checked_integer(entry, "byteStride", size) : size;
   return {buffers.view(view).subspan(static_cast<size_t>(offset)), stride};
 }
 
 void put_sparse(const json& root, GltfBuffers& buffers, const json& sparse, const Place& place,
                 const Element& element, RowMatrix& rows) {
-  const int64_t count = integer(sparse, "count", place, 1, element.count);
+  const int64_t count = checked_integer(sparse, "count");
   Element index;
-  index.type = static_cast<ComponentType>(integer(sparse["indices"], "componentType", place, 5121, 5125));
-  const auto places =
-      entries(source_of(root, buffers, sparse["indices"], place, index.size(), false), index, count);
+  index.type = static_cast<ComponentType>(checked_integer(sparse["indices"], "componentType"));
+  const auto places = entries(source_of(root, buffers, sparse["indices"], index.size(), false), index, count);
   const auto values =
-      entries(source_of(root, buffers, sparse["values"], place, element.size(), false), element, count);
+      entries(source_of(root, buffers, sparse["values"], element.size(), false), element, count);
   for (Eigen::Index i = 0; i < count; ++i) {
     if (places(i) >= static_cast<double>(rows.rows()))
       fail_field(place, "sparse", "replaces an entry that is not there");
@@ -104,7 +102,7 @@ RowMatrix read_accessor(const json& root, GltfBuffers& buffers, int64_t index) {
   const Element element = element_of(accessor, place);
   RowMatrix rows;
   if (member(accessor, "bufferView"))
-    rows = entries(source_of(root, buffers, accessor, place, element.size(), true), element, element.count);
+    rows = entries(source_of(root, buffers, accessor, element.size(), true), element, element.count);
   else
     rows = RowMatrix::Zero(element.count, element.components);
   if (const json* sparse = member(accessor, "sparse"))

@@ -17,10 +17,10 @@ namespace {
 
 using nlohmann::json;
 
-std::span<const std::byte> extent(std::span<const std::byte> bytes, const json& owner, const Place& place) {
-  const int64_t offset = integer(owner, "byteOffset", place, 0, kMostBytes, 0);
-  const int64_t length = integer(owner, "byteLength", place, 1, kMostBytes);
-  return bytes.subspan(static_cast<size_t>(offset), static_cast<size_t>(length));
+// parse_gltf has seen to it that the extent lies in the buffer's length, and buffer() that so many bytes are there.
+std::span<const std::byte> extent(std::span<const std::byte> bytes, const json& owner) {
+  return bytes.subspan(static_cast<size_t>(checked_integer(owner, "byteOffset")),
+                       static_cast<size_t>(checked_integer(owner, "byteLength")));
 }
 
 // The preconditions of each decoder are asserts in the library, so they are checked here.
@@ -61,7 +61,7 @@ std::span<const std::byte> GltfBuffers::view(int64_t index) {
   const Place place{"bufferViews", index};
   const json& view = list(root_, "bufferViews")[static_cast<size_t>(index)];
   const json* compressed = extension(view, "EXT_meshopt_compression");
-  if (!compressed) return extent(buffer(view["buffer"].get<int64_t>()), view, place);
+  if (!compressed) return extent(buffer(view["buffer"].get<int64_t>()), view);
   auto found = decoded_views_.find(index);
   if (found == decoded_views_.end()) found = decoded_views_.emplace(index, decode(*compressed, place)).first;
   return found->second;
@@ -70,7 +70,7 @@ std::span<const std::byte> GltfBuffers::view(int64_t index) {
 std::span<const std::byte> GltfBuffers::buffer(int64_t index) {
   const Place place{"buffers", index};
   const json& buffer = list(root_, "buffers")[static_cast<size_t>(index)];
-  const int64_t length = integer(buffer, "byteLength", place, 1, kMostBytes);
+  const int64_t length = checked_integer(buffer, "byteLength");
   std::span<const std::byte> bytes;
   if (const std::string* uri = text(buffer, "uri", place)) {
     auto found = loaded_buffers_.find(index);
@@ -106,9 +106,9 @@ std::vector<std::byte> GltfBuffers::load(const std::string& uri, const Place& pl
 }
 
 std::vector<std::byte> GltfBuffers::decode(const json& compressed, const Place& place) {
-  const auto source = extent(buffer(compressed["buffer"].get<int64_t>()), compressed, place);
-  const int64_t count = integer(compressed, "count", place, 1, kMostBytes);
-  const int64_t stride = integer(compressed, "byteStride", place, 1, 256);
+  const auto source = extent(buffer(compressed["buffer"].get<int64_t>()), compressed);
+  const int64_t count = checked_integer(compressed, "count");
+  const int64_t stride = checked_integer(compressed, "byteStride");
   // The codecs cannot shrink data further than this, so a tiny file cannot ask for a huge block.
   constexpr int64_t kBestRatio = 1024;
   if (count * stride > kBestRatio * static_cast<int64_t>(source.size()))

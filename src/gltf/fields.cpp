@@ -61,6 +61,11 @@ int64_t integer(const json& object, const char* key, const Place& place, int64_t
   return *number;
 }
 
+int64_t checked_integer(const json& object, const char* key, int64_t fallback) {
+  const json* value = member(object, key);
+  return value ? value->get<int64_t>() : fallback;
+}
+
 int64_t as_reference(const json& value, const char* key, const Place& place, int64_t count) {
   const auto number = whole_number(value);
   if (!number) fail_field(place, key, "is not a whole number");

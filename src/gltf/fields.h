@@ -26,6 +26,8 @@ const nlohmann::json* member(const nlohmann::json& object, const char* key);  //
 // A whole number (1.0 counts as one) in [least, most]; a missing one is `fallback`, or an error without one.
 int64_t integer(const nlohmann::json& object, const char* key, const Place& place, int64_t least,
                 int64_t most, std::optional<int64_t> fallback = std::nullopt);
+// The same where parse_gltf has checked before that the number is there and in its range, or that it may be missing.
+int64_t checked_integer(const nlohmann::json& object, const char* key, int64_t fallback = 0);
 // A reference into a list of `count`; a missing one is -1, or an error when required.
 int64_t reference(const nlohmann::json& object, const char* key, const Place& place, int64_t count,
                   bool required = false);

@@ -100,7 +100,7 @@ void check_extent(const json& root, const json& owner, const Place& place) {
   const int64_t buffer = reference(owner, "buffer", place, count_of(root, "buffers"), true);
   const int64_t offset = integer(owner, "byteOffset", place, 0, kMostBytes, 0);
   const int64_t length = integer(owner, "byteLength", place, 1, kMostBytes);
-  const int64_t available = integer(list(root, "buffers")[buffer], "byteLength", place, 1, kMostBytes);
+  const int64_t available = checked_integer(list(root, "buffers")[buffer], "byteLength");
   if (offset + length > available) fail_field(place, "byteLength", "reaches beyond its buffer");
 }
 
@@ -112,7 +112,7 @@ void check_view(const json& root, const json& view, const Place& place) {
   check_extent(root, *compressed, place);
   const int64_t stride = integer(*compressed, "byteStride", place, 1, 256);
   const int64_t count = integer(*compressed, "count", place, 1, kMostBytes);
-  if (stride * count != integer(view, "byteLength", place, 1, kMostBytes))
+  if (stride * count != checked_integer(view, "byteLength"))
     fail_field(place, "extensions", "EXT_meshopt_compression decodes to another length than the view has");
   text(*compressed, "mode", place);
   text(*compressed, "filter", place);
@@ -125,9 +125,9 @@ void check_entries(const json& root, const json& owner, const Place& place, cons
   const json& view = list(root, "bufferViews")[index];
   const int64_t offset = integer(owner, "byteOffset", place, 0, kMostBytes, 0);
   const int64_t size = element.size();
-  const int64_t stride = may_be_strided ? integer(view, "byteStride", place, 4, 252, size) : size;
+  const int64_t stride = may_be_strided ? checked_integer(view, "byteStride", size) : size;
   if (stride < size) fail_field(place, "bufferView", "has a stride smaller than an element");
-  if (offset + element.extent(count, stride) > integer(view, "byteLength", place, 1, kMostBytes))
+  if (offset + element.extent(count, stride) > checked_integer(view, "byteLength"))
     fail_field(place, "count", "is " + std::to_string(count) + ", reaching beyond its buffer view");
 }
 

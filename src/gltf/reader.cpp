@@ -65,7 +65,7 @@ class Plan {
   void add(const MeshPlacement& placement) {
     const json& primitives = list(root_, "meshes")[static_cast<size_t>(placement.mesh)]["primitives"];
     for (size_t p = 0; p < primitives.size(); ++p) {
-      const int64_t mode = integer(primitives[p], "mode", {"meshes", placement.mesh}, 0, 6, kTriangles);
+      const int64_t mode = checked_integer(primitives[p], "mode", kTriangles);
       const bool is_surface = mode >= kTriangles && member(primitives[p]["attributes"], "POSITION");
       if (is_surface)
         add(placement, primitives[p], static_cast<int32_t>(p), mode);

@@ -30,6 +30,21 @@ struct Choices {
 
 enum Kind { contexts, meshes, sets, models, detections, analyses, maps, skeletons, tasks, blobs, kinds };
 
+template <class Handle, focal_status (*destroy)(Handle*)>
+void destroy_as(void* handle) {
+  destroy(static_cast<Handle*>(handle));
+}
+constexpr void (*destroyers[kinds])(void*) = {destroy_as<focal_context, focal_context_destroy>,
+                                              destroy_as<focal_mesh, focal_mesh_destroy>,
+                                              destroy_as<focal_training_set, focal_training_set_destroy>,
+                                              destroy_as<focal_model, focal_model_destroy>,
+                                              destroy_as<focal_detection, focal_detection_destroy>,
+                                              destroy_as<focal_analysis, focal_analysis_destroy>,
+                                              destroy_as<focal_correspondence, focal_correspondence_destroy>,
+                                              destroy_as<focal_skeleton, focal_skeleton_destroy>,
+                                              destroy_as<focal_task, focal_task_destroy>,
+                                              destroy_as<focal_blob, focal_blob_destroy>};
+
 struct World {
   Choices choose;
   std::vector<void*> handles[kinds];
@@ -49,42 +64,7 @@ struct World {
     return of_kind.empty() ? nullptr : static_cast<Handle*>(of_kind[b / 16 % of_kind.size()]);
   }
   // In an order that the input chooses; those destroyed before are stale, and said to be so.
-  void destroy(Kind kind, void* handle) {
-    switch (kind) {
-      case contexts:
-        focal_context_destroy(static_cast<focal_context*>(handle));
-        break;
-      case meshes:
-        focal_mesh_destroy(static_cast<focal_mesh*>(handle));
-        break;
-      case sets:
-        focal_training_set_destroy(static_cast<focal_training_set*>(handle));
-        break;
-      case models:
-        focal_model_destroy(static_cast<focal_model*>(handle));
-        break;
-      case detections:
-        focal_detection_destroy(static_cast<focal_detection*>(handle));
-        break;
-      case analyses:
-        focal_analysis_destroy(static_cast<focal_analysis*>(handle));
-        break;
-      case maps:
-        focal_correspondence_destroy(static_cast<focal_correspondence*>(handle));
-        break;
-      case skeletons:
-        focal_skeleton_destroy(static_cast<focal_skeleton*>(handle));
-        break;
-      case tasks:
-        focal_task_destroy(static_cast<focal_task*>(handle));
-        break;
-      case blobs:
-        focal_blob_destroy(static_cast<focal_blob*>(handle));
-        break;
-      case kinds:
-        break;
-    }
-  }
+  void destroy(Kind kind, void* handle) { destroyers[kind](handle); }
   ~World() {
     for (int kind = 0; kind < kinds; ++kind)
       for (void* handle : handles[kind]) destroy(static_cast<Kind>(kind), handle);
@@ -322,21 +302,13 @@ void look_at_detection(World& world) {
   const uint64_t count = world.choose.below(8) ? info.vertex_count : world.choose.byte();
   std::vector<float> values(std::max<uint64_t>(count, 1));
   std::vector<int32_t> labels(info.triangle_count);
-  switch (world.choose.below(4)) {
-    case 0:
-      told(focal_detection_votes(detection, world.choose.below(5), count, values.data()));
-      break;
-    case 1:
-      told(focal_detection_distances(detection, world.choose.below(5), count, values.data()));
-      break;
-    case 2:
-      told(focal_detection_region(detection, world.choose.below(5), world.choose.number(), count,
-                                  values.data()));
-      break;
-    default:
-      told(focal_detection_segment(detection, static_cast<focal_segmentation>(world.choose.below(5)),
-                                   world.pick<focal_task>(tasks), info.triangle_count, labels.data()));
-  }
+  const uint32_t call = world.choose.below(4), which = world.choose.below(5);
+  if (call == 0) told(focal_detection_votes(detection, which, count, values.data()));
+  if (call == 1) told(focal_detection_distances(detection, which, count, values.data()));
+  if (call == 2) told(focal_detection_region(detection, which, world.choose.number(), count, values.data()));
+  if (call == 3)
+    told(focal_detection_segment(detection, static_cast<focal_segmentation>(which),
+                                 world.pick<focal_task>(tasks), info.triangle_count, labels.data()));
 }
 
 void use_detection(World& world) {
@@ -372,20 +344,13 @@ void use_detection(World& world) {
 }
 
 void handle_tasks(World& world) {
-  focal_task* task = nullptr;
-  switch (world.choose.below(4)) {
-    case 0:
-      told(focal_task_create(&task)), world.keep(tasks, task);
-      break;
-    case 1:
-      told(focal_task_cancel(world.pick<focal_task>(tasks)));
-      break;
-    case 2:
-      told(focal_task_reset(world.pick<focal_task>(tasks)));
-      break;
-    default:
-      focal_task_progress(world.pick<focal_task>(tasks)), focal_task_stage(world.pick<focal_task>(tasks));
-  }
+  focal_task* made = nullptr;
+  const uint32_t call = world.choose.below(4);
+  if (call == 0) return told(focal_task_create(&made)), world.keep(tasks, made);
+  auto* task = world.pick<focal_task>(tasks);
+  if (call == 1) told(focal_task_cancel(task));
+  if (call == 2) told(focal_task_reset(task));
+  if (call == 3) focal_task_progress(task), focal_task_stage(task);
 }
 
 void make_set(World& world) {

@@ -29,26 +29,6 @@ struct Change {
   const char* message;  // part of the error; "": it is read
 };
 
-// Two nodes, an animated skin, a sparse accessor, a morph target; one buffer of exactly the bytes needed.
-GltfBuilder full_file() {
-  GltfBuilder file = tetrahedron();
-  const int where = file.add_view(std::vector<uint8_t>{1, 3});
-  const int what = file.add_view(std::vector<float>{5, 6, 7, 8, 9, 10});
-  file.root["accessors"][0]["sparse"] = {{"count", 2},
-                                         {"indices", {{"bufferView", where}, {"componentType", 5121}}},
-                                         {"values", {{"bufferView", what}}}};
-  const int matrix =
-      file.add_accessor(std::vector<float>{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, "MAT4");
-  file.root["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", 0}}};
-  const int joint =
-      file.add_node({{"translation", {0, 0, 0}}, {"rotation", {0, 0, 0, 1}}, {"scale", {1, 1, 1}}});
-  file.add_node({{"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}}, joint);
-  file.add("skins", {{"joints", {joint}}, {"inverseBindMatrices", matrix}});
-  file.root["nodes"][0]["skin"] = 0;
-  file.root["buffers"] = json::array({{{"byteLength", file.bin.size()}}});
-  return file;
-}
-
 std::string error_after(const GltfBuilder& file, const Change& change) {
   json root = file.root;
   root[json::json_pointer(change.place)] = change.value;
@@ -58,7 +38,7 @@ std::string error_after(const GltfBuilder& file, const Change& change) {
 }  // namespace
 
 TEST_CASE("one step beyond each bound is refused, the bound itself is not") {
-  const GltfBuilder file = full_file();
+  const GltfBuilder file = rich_file();
   const auto bytes = static_cast<int64_t>(file.bin.size());
   REQUIRE(error_of(glb_bytes(file.root.dump(), bin_chunk(file.bin))) == "");
   const std::vector<Change> changes = {
@@ -154,7 +134,7 @@ TEST_CASE("one step beyond each bound is refused, the bound itself is not") {
 
 TEST_CASE("an entry that a sparse accessor replaces exists") {
   for (const uint8_t last : {uint8_t{3}, uint8_t{4}}) {
-    GltfBuilder file = full_file();
+    GltfBuilder file = rich_file();
     const auto at = file.root["bufferViews"][2]["byteOffset"].get<size_t>();
     file.bin[at + 1] = std::byte{last};
     const std::string error = error_of(glb_bytes(file.root.dump(), bin_chunk(file.bin)));
@@ -164,7 +144,7 @@ TEST_CASE("an entry that a sparse accessor replaces exists") {
 }
 
 TEST_CASE("a file may be as large as its limits, and no larger") {
-  const GltfBuilder file = full_file();
+  const GltfBuilder file = rich_file();
   const std::string text = file.root.dump();
   const auto bytes = glb_bytes(text, bin_chunk(file.bin));
   const auto padded = static_cast<int64_t>((text.size() + 3) / 4 * 4);
@@ -182,7 +162,7 @@ TEST_CASE("a file may be as large as its limits, and no larger") {
 }
 
 TEST_CASE("headers and chunks of a .glb are taken at their word only as far as the file goes") {
-  const GltfBuilder file = full_file();
+  const GltfBuilder file = rich_file();
   const auto whole = glb_bytes(file.root.dump(), bin_chunk(file.bin));
   const auto with = [&](size_t at, uint32_t value, size_t size) {
     auto bytes = whole;

@@ -98,4 +98,24 @@ inline GltfBuilder tetrahedron() {
   return file;
 }
 
+// All that the reader looks at: nodes, a skin, a sparse accessor, a morph target; one buffer of exactly the bytes needed.
+inline GltfBuilder rich_file() {
+  GltfBuilder file = tetrahedron();
+  const int where = file.add_view(std::vector<uint8_t>{1, 3});
+  const int what = file.add_view(std::vector<float>{5, 6, 7, 8, 9, 10});
+  file.root["accessors"][0]["sparse"] = {{"count", 2},
+                                         {"indices", {{"bufferView", where}, {"componentType", 5121}}},
+                                         {"values", {{"bufferView", what}}}};
+  const int matrix =
+      file.add_accessor(std::vector<float>{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, "MAT4");
+  file.root["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", 0}}};
+  const int joint =
+      file.add_node({{"translation", {0, 0, 0}}, {"rotation", {0, 0, 0, 1}}, {"scale", {1, 1, 1}}});
+  file.add_node({{"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}}, joint);
+  file.add("skins", {{"joints", {joint}}, {"inverseBindMatrices", matrix}});
+  file.root["nodes"][0]["skin"] = 0;
+  file.root["buffers"] = json::array({{{"byteLength", file.bin.size()}}});
+  return file;
+}
+
 }  // namespace focal_test
