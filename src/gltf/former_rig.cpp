@@ -82,7 +82,6 @@ void FormerRigs::release_animations() {
 
 FormerRig FormerRigs::release() {
   release_groups();
-  if (result_.nodes.empty()) return {};
   release_skins();
   release_animations();
   return result_;

@@ -4,7 +4,6 @@
 #include <array>
 #include <charconv>
 #include <cstdint>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
@@ -15,7 +14,7 @@ namespace {
 constexpr uint32_t kMagic = 0x46546c67, kVersion = 2, kJson = 0x4e4f534a, kBin = 0x004e4942;
 
 void put_u32(std::vector<std::byte>& bytes, uint64_t value) {
-  if (value > std::numeric_limits<uint32_t>::max())
+  if (value >> 32)
     throw Error(Status::unsupported, "a .glb cannot hold more than 4 GiB", "decimate the model");
   for (int shift = 0; shift < 32; shift += 8) bytes.push_back(static_cast<std::byte>(value >> shift & 0xff));
 }
@@ -34,10 +33,11 @@ void put_chunk(std::vector<std::byte>& bytes, uint32_t type, std::span<const std
 std::vector<std::byte> glb_bytes(std::string_view json, std::span<const std::byte> chunks) {
   constexpr uint64_t kHeaders = 12 + 8;
   std::vector<std::byte> bytes;
-  bytes.reserve(kHeaders + padded(json.size()) + chunks.size());
+  const uint64_t size = kHeaders + padded(json.size()) + chunks.size();
   put_u32(bytes, kMagic);
   put_u32(bytes, kVersion);
-  put_u32(bytes, kHeaders + padded(json.size()) + chunks.size());
+  put_u32(bytes, size);
+  bytes.reserve(size);
   put_chunk(bytes, kJson, std::as_bytes(std::span(json)), ' ');
   bytes.insert(bytes.end(), chunks.begin(), chunks.end());
   return bytes;

@@ -26,15 +26,18 @@ void for_each(const json& root, const char* key, Check&& check) {
   for (size_t i = 0; i < elements.size(); ++i) check(elements[i], Place{key, static_cast<int64_t>(i)});
 }
 
+void check_number(int64_t number, const char* what, const GltfLimits& limits) {
+  if (number > limits.nodes)
+    throw Error(Status::unsupported, "glTF with " + std::to_string(number) + " " + what,
+                "split the file or raise the limit");
+}
+
 void check_lists(const json& root, const GltfLimits& limits) {
   for (const char* key : {"accessors", "buffers", "bufferViews", "meshes", "nodes", "scenes", "skins"}) {
     const json* elements = member(root, key);
     if (!elements) continue;
     if (!elements->is_array()) fail_field({"document"}, key, "is not an array");
-    if (static_cast<int64_t>(elements->size()) > limits.nodes)
-      throw Error(Status::unsupported,
-                  std::string("glTF with ") + std::to_string(elements->size()) + " " + key,
-                  "split the file or raise the limit");
+    check_number(static_cast<int64_t>(elements->size()), key, limits);
     for_each(root, key, [](const json& element, const Place& place) {
       if (!element.is_object()) fail_field(place, "", "is not an object");
     });
@@ -106,7 +109,7 @@ void check_extent(const json& root, const json& owner, const Place& place) {
 
 void check_view(const json& root, const json& view, const Place& place) {
   check_extent(root, view, place);
-  integer(view, "byteStride", place, 4, 252, 4);
+  if (member(view, "byteStride")) integer(view, "byteStride", place, 4, 252);
   const json* compressed = extension(view, "EXT_meshopt_compression");
   if (!compressed) return;
   check_extent(root, *compressed, place);
@@ -152,12 +155,14 @@ void check_accessor(const json& root, const json& accessor, const Place& place) 
   if (const json* sparse = object(accessor, "sparse", place)) check_sparse(root, *sparse, place, element);
 }
 
+constexpr int64_t kUnknown = -1;
+
 // All attributes of a primitive or morph target name accessors with one entry a vertex. Returns that number.
 int64_t check_attributes(const json& root, const json& attributes, const Place& place, int64_t vertices) {
   for (const auto& [name, value] : attributes.items()) {
     const int64_t index = as_reference(value, name.c_str(), place, count_of(root, "accessors"));
     const Element element = element_of(list(root, "accessors")[index], place);
-    if (vertices >= 0 && element.count != vertices)
+    if (vertices != kUnknown && element.count != vertices)
       fail_field(place, name.c_str(), "has another number of entries than the other attributes");
     if (name == "POSITION" && (element.components != 3 || element.type == ComponentType::u32))
       fail_field(place, "POSITION", "is not a VEC3 of a type that positions may have");
@@ -169,8 +174,8 @@ int64_t check_attributes(const json& root, const json& attributes, const Place& 
 void check_primitive(const json& root, const json& primitive, const Place& place) {
   const json* attributes = object(primitive, "attributes", place);
   if (!attributes) fail_field(place, "attributes", "is missing");
-  const int64_t vertices = check_attributes(root, *attributes, place, -1);
-  integer(primitive, "mode", place, 0, 6, 4);
+  const int64_t vertices = check_attributes(root, *attributes, place, kUnknown);
+  if (member(primitive, "mode")) integer(primitive, "mode", place, 0, 6);
   const int64_t indices = reference(primitive, "indices", place, count_of(root, "accessors"));
   if (indices >= 0) {
     const Element element = element_of(list(root, "accessors")[indices], place);
@@ -188,8 +193,7 @@ void check_primitive(const json& root, const json& primitive, const Place& place
 void check_mesh(const json& root, const json& mesh, const Place& place, const GltfLimits& limits) {
   const json* primitives = array(mesh, "primitives", place);
   if (!primitives || primitives->empty()) fail_field(place, "primitives", "is missing or empty");
-  if (static_cast<int64_t>(primitives->size()) > limits.nodes)
-    fail_field(place, "primitives", "are too many");
+  check_number(static_cast<int64_t>(primitives->size()), "primitives of a mesh", limits);
   for (const json& primitive : *primitives) {
     if (!primitive.is_object()) fail_field(place, "primitives", "holds something else than objects");
     check_primitive(root, primitive, place);
@@ -239,10 +243,7 @@ void check_skins(const json& root, const GltfLimits& limits) {
   int64_t matrices = 0;
   for_each(root, "skins", [&](const json& skin, const Place& place) {
     matrices += check_skin(root, skin, place);
-    if (matrices > limits.nodes)
-      throw Error(Status::unsupported,
-                  "glTF with more than " + std::to_string(limits.nodes) + " skin matrices",
-                  "split the file or raise the limit");
+    check_number(matrices, "skin matrices", limits);
   });
 }
 

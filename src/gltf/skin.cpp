@@ -100,7 +100,8 @@ void read_influences(const json& root, GltfBuffers& buffers, const json& skin, c
     if (!numbers || !weights) break;
     const RowMatrix J = read_accessor(root, buffers, numbers->get<int64_t>());
     const RowMatrix W = read_accessor(root, buffers, weights->get<int64_t>());
-    if (J.rows() < range.vertex_count || W.rows() < range.vertex_count || J.cols() != 4 || W.cols() != 4)
+    // There are as many joints as weights: parse_gltf looks at the attributes of a primitive together.
+    if (J.rows() < range.vertex_count || J.cols() != 4 || W.cols() != 4)
       throw Error(Status::invalid_file, "joints or weights of a primitive are not four a vertex",
                   "export the file again");
     for (int32_t v = 0; v < range.vertex_count; ++v)

@@ -78,6 +78,78 @@ TEST_CASE("keys that do not fit are refused") {
   CHECK_THROWS_AS(read_gltf_animations(file.glb()), Error);
 }
 
+TEST_CASE("channels that move something else than a place are passed over") {
+  const auto with_target = [](const json& target) {
+    GltfBuilder file = turning("LINEAR");
+    file.root["animations"][0]["channels"][1]["target"] = target;
+    return read_gltf_animations(file.glb());
+  };
+  for (const json& target :
+       {json{{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {}}}}}, json{{"node", 2}},
+        json{{"node", 2}, {"path", 3}}, json{{"node", 2}, {"path", "weights"}}}) {
+    CAPTURE(target.dump());
+    const auto animations = with_target(target);
+    REQUIRE(animations.size() == 1);
+    CHECK(animations[0].times == std::vector<double>{0, 2});  // the turn's alone
+  }
+  GltfBuilder file = turning("LINEAR");
+  file.root["animations"][0]["channels"][1]["target"]["path"] = "scale";
+  const auto scaled = read_gltf_animations(file.glb());
+  CHECK(scaled[0].times == std::vector<double>{0, 1, 2});
+  CHECK(scaled[0].joints.at("arm")[1].topLeftCorner<3, 3>().col(0).norm() == doctest::Approx(4));
+}
+
+TEST_CASE("cubic keys follow their tangents") {
+  GltfBuilder file = turning("LINEAR");
+  // Hermite: from 0 to 4 within 2 s, leaving with 1 a second and arriving with 3 a second.
+  const int keys =
+      file.add_accessor(std::vector<float>{9, 0, 0, 0, 0, 0, 1, 0, 0, 3, 0, 0, 4, 0, 0, 9, 0, 0}, "VEC3");
+  const int times = file.add_accessor(std::vector<float>{0, 2}, "SCALAR");
+  file.root["animations"][0]["samplers"][1] = {
+      {"input", times}, {"output", keys}, {"interpolation", "CUBICSPLINE"}};
+  const int moments =
+      file.add_accessor(std::vector<float>{0, 1}, "SCALAR");  // of the turn: asks for the place at 1 s
+  file.root["animations"][0]["samplers"][0]["input"] = moments;
+  const auto animation = read_gltf_animations(file.glb()).at(0);
+  CHECK(animation.times == std::vector<double>{0, 1, 2});
+  CHECK(animation.joints.at("arm")[1](0, 3) == doctest::Approx(0.5 * 4 + 2 * (1 - 3) / 8.0));
+}
+
+TEST_CASE("animations take no more memory than is allowed, exactly") {
+  const auto bytes = turning("LINEAR").glb();  // 3 times, 2 joints and what they share
+  const int64_t needed = 3 * (2 + 1) * static_cast<int64_t>(sizeof(Matrix4));
+  CHECK(read_gltf_animations(bytes, {.decoded_bytes = needed}).size() == 1);
+  CHECK_THROWS_AS(read_gltf_animations(bytes, {.decoded_bytes = needed - 1}), Error);
+}
+
+TEST_CASE("what is no animation is refused or passed over") {
+  const auto read = [](const char* place, const json& value) {
+    GltfBuilder file = turning("LINEAR");
+    file.root[json::json_pointer(place)] = value;
+    return read_gltf_animations(file.glb());
+  };
+  CHECK(read("/animations", "none").empty());
+  CHECK(read("/animations/0/channels", json::array()).empty());
+  CHECK(read("/animations/0/channels/0/target/node", 0).size() ==
+        1);  // of the mesh's node; the other moves a joint
+  CHECK(read("/animations/0/name", 3).at(0).name == "animation");
+  CHECK(read("/nodes/1/name", 3).at(0).joints.size() == 1);
+  for (const auto& [place, value] :
+       std::vector<std::pair<const char*, json>>{{"/animations/0", 3},
+                                                 {"/animations/0/channels", "none"},
+                                                 {"/animations/0/channels/0/target", 3},
+                                                 {"/animations/0/samplers", 3},
+                                                 {"/animations/0/samplers/0", 3},
+                                                 {"/animations/0/samplers/1/input", 1.5},
+                                                 {"/animations/0/channels/0", json::object()},
+                                                 {"/animations/0/samplers/1/input", 0},
+                                                 {"/animations/0/samplers/0/interpolation", "CUBICSPLINE"},
+                                                 {"/animations/0/channels/0/target/path", "scale"}}) {
+    CAPTURE(std::string(place));
+    CHECK_THROWS_AS(read(place, value), Error);
+  }
+}
+
 TEST_CASE("an animation put in with a skin is read back the same") {
   const auto source = tetrahedron().glb();
   Rig rig;

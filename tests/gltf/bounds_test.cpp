@@ -13,25 +13,19 @@ using namespace focal_test;
 
 namespace {
 
-// "" when it is read; a missing pattern shows the message that came instead.
-std::string error_of(std::span<const std::byte> file, const GltfLimits& limits = {}) {
-  try {
-    read_gltf_memory(file, {.limits = limits});
-    return "";
-  } catch (const Error& error) {
-    return error.what();
-  }
-}
-
 struct Change {
-  const char* place;  // JSON pointer
-  json value;
+  const char* place;    // JSON pointer
+  json value;           // discarded: the member is left out
   const char* message;  // part of the error; "": it is read
 };
 
 std::string error_after(const GltfBuilder& file, const Change& change) {
   json root = file.root;
-  root[json::json_pointer(change.place)] = change.value;
+  const json::json_pointer place(change.place);
+  if (change.value.is_discarded())
+    root[place.parent_pointer()].erase(place.back());
+  else
+    root[place] = change.value;
   return error_of(glb_bytes(root.dump(), bin_chunk(file.bin)));
 }
 
@@ -41,6 +35,7 @@ TEST_CASE("one step beyond each bound is refused, the bound itself is not") {
   const GltfBuilder file = rich_file();
   const auto bytes = static_cast<int64_t>(file.bin.size());
   REQUIRE(error_of(glb_bytes(file.root.dump(), bin_chunk(file.bin))) == "");
+  const json absent(json::value_t::discarded);
   const std::vector<Change> changes = {
       {"/buffers/0/byteLength", 0, "buffers[0].byteLength is 0, outside 1"},
       {"/buffers/0/byteLength", bytes - 1, "reaches beyond its buffer"},
@@ -48,6 +43,9 @@ TEST_CASE("one step beyond each bound is refused, the bound itself is not") {
       {"/buffers/0/uri", 1, "buffers[0].uri is not"},
       {"/bufferViews/0/buffer", 1, "refers to element 1 of 1"},
       {"/bufferViews/0/buffer", -1, "refers to element -1 of 1"},
+      {"/bufferViews/0/buffer", absent, "bufferViews[0].buffer is missing"},
+      {"/bufferViews/0", {{"buffer", 0}, {"byteLength", bytes}}, ""},
+      {"/bufferViews/0", {{"buffer", 0}, {"byteLength", bytes + 1}}, "reaches beyond its buffer"},
       {"/bufferViews/0/byteOffset", -1, "bufferViews[0].byteOffset is -1, outside 0"},
       {"/bufferViews/0/byteOffset", bytes - 48, ""},
       {"/bufferViews/0/byteOffset", bytes - 47, "bufferViews[0].byteLength reaches beyond its buffer"},
@@ -62,9 +60,16 @@ TEST_CASE("one step beyond each bound is refused, the bound itself is not") {
       {"/bufferViews/0/byteStride", 253, "byteStride is 253, outside 4 to 252"},
       {"/accessors/0/count", 0, "accessors[0].count is 0, outside 1"},
       {"/accessors/0/count", 5, "accessors[0].count is 5, reaching beyond its buffer view"},
+      {"/accessors/0/count", 9007199254740992.0, "count is 9007199254740992, outside 1"},
+      {"/accessors/0/count", 9007199254740994.0, "accessors[0].count is not a whole number"},
+      {"/accessors/0/count", uint64_t{1} << 63, "accessors[0].count is not a whole number"},
       {"/accessors/0/count", 3.5, "accessors[0].count is not a whole number"},
       {"/accessors/0/byteOffset", -1, "accessors[0].byteOffset is -1, outside 0"},
       {"/accessors/0/byteOffset", 1, "reaching beyond its buffer view"},
+      {"/accessors/0/bufferView", absent, ""},
+      {"/accessors/0",
+       {{"componentType", 5126}, {"type", "VEC3"}, {"count", 4}, {"byteOffset", 0}},
+       "without a bufferView"},
       {"/accessors/0/bufferView", 5, "refers to element 5 of 5"},
       {"/accessors/0/componentType", 5119, "componentType is 5119, outside 5120 to 5126"},
       {"/accessors/0/componentType", 5124, "is not a component type of glTF"},
@@ -116,11 +121,16 @@ TEST_CASE("one step beyond each bound is refused, the bound itself is not") {
       {"/skins/0/joints", json::array(), "joints is missing or empty"},
       {"/skins/0/joints", {0, 1, 2, 0}, "joints names a node twice"},
       {"/skins/0/joints", {0, 1}, "has fewer matrices than there are joints"},
+      {"/skins/0", {{"joints", {0, 1, 2}}}, ""},
       {"/skins/0/joints/0", 3, "refers to element 3 of 3"},
       {"/skins/0/inverseBindMatrices", 0, "is not a MAT4 of floats"},
       {"/asset/version", "3.0", "glTF version"},
+      {"/asset/version", "0.9", "glTF version 0.9"},
+      {"/asset/version", "2", "is missing or malformed"},
+      {"/asset/version", "2.x", "is missing or malformed"},
       {"/asset/minVersion", "2.0", ""},
       {"/asset/minVersion", "2.1", "glTF version"},
+      {"/asset", absent, "asset is missing"},
       {"/extensionsRequired", {1}, "holds something else than names"},
   };
   for (const Change& change : changes) {
@@ -161,6 +171,24 @@ TEST_CASE("a file may be as large as its limits, and no larger") {
   check(&GltfLimits::json_bytes, padded);
 }
 
+TEST_CASE("primitives and matrices of skins are as many as there may be nodes, and no more") {
+  GltfBuilder file = rich_file();
+  for (int i = 0; i < 5; ++i)
+    file.root["meshes"][0]["primitives"].push_back(file.root["meshes"][0]["primitives"][0]);
+  CHECK(error_of(file.glb(), {.nodes = 6}) == "");
+  CHECK(error_of(file.glb(), {.nodes = 5}).find("glTF with 6 primitives of a mesh") != std::string::npos);
+  file = rich_file();
+  file.root["skins"][0]["inverseBindMatrices"] = file.add_accessor(std::vector<float>(4 * 16, 1), "MAT4");
+  file.add("skins", file.root["skins"][0]);
+  CHECK(error_of(file.glb(), {.nodes = 8}) == "");
+  CHECK(error_of(file.glb(), {.nodes = 7}).find("glTF with 8 skin matrices") != std::string::npos);
+}
+
+TEST_CASE("JSON that is no glTF is said to be so") {
+  CHECK(error_of(bytes_of("[]")).find("not glTF") != std::string::npos);
+  CHECK(error_of(bytes_of("3")).find("not glTF") != std::string::npos);
+}
+
 TEST_CASE("headers and chunks of a .glb are taken at their word only as far as the file goes") {
   const GltfBuilder file = rich_file();
   const auto whole = glb_bytes(file.root.dump(), bin_chunk(file.bin));
@@ -177,6 +205,7 @@ TEST_CASE("headers and chunks of a .glb are taken at their word only as far as t
   };
   CHECK(error_of({}).find("empty") != std::string::npos);
   contains(error_of(std::span(whole).first(11)), "the header is cut off");
+  contains(with(8, 12, 12), "a chunk header is cut off");
   contains(with(4, 1, size), "GLB of version 1");
   contains(with(4, 3, size), "GLB of version 3");
   contains(with(8, 11, size), "the header announces 11 bytes");
@@ -188,6 +217,16 @@ TEST_CASE("headers and chunks of a .glb are taken at their word only as far as t
   contains(with(12, size - 20, size), "JSON");
   contains(with(12, size - 19, size), "bytes where");
   contains(with(16, 0x004e4942, size), "the first chunk is not JSON");
+  const auto followed_by = [&](std::vector<std::byte> chunk) {
+    auto bytes = whole;
+    bytes.insert(bytes.end(), chunk.begin(), chunk.end());
+    for (int i = 0; i < 4; ++i) bytes[8 + i] = std::byte(static_cast<uint32_t>(bytes.size()) >> (8 * i));
+    return error_of(bytes);
+  };
+  const auto text = [](const char* letters) { return bytes_of(std::string(letters, 8)); };
+  CHECK(followed_by(text("\0\0\0\0MINE")) == "");  // an empty one of another kind
+  contains(followed_by(text("\0\0\0\0JSON")), "two JSON chunks");
+  contains(followed_by(text("\1\0\0\0MINE")), "a chunk of 1 bytes where 0 are left");
   auto twice = whole;
   const auto json_end = static_cast<size_t>(20 + (file.root.dump().size() + 3) / 4 * 4);
   twice.insert(twice.end(), whole.begin() + static_cast<ptrdiff_t>(json_end), whole.end());

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/error.h"
 #include "gltf/glb.h"
 #include "gltf/reader.h"
 
@@ -83,6 +84,16 @@ struct GltfBuilder {
 inline std::vector<std::byte> bytes_of(const std::string& text) {
   const auto bytes = std::as_bytes(std::span(text));
   return {bytes.begin(), bytes.end()};
+}
+
+// "" when it is read; a missing pattern shows the message that came instead.
+inline std::string error_of(std::span<const std::byte> file, const focal::GltfLimits& limits = {}) {
+  try {
+    focal::read_gltf_memory(file, {.limits = limits});
+    return "";
+  } catch (const focal::Error& error) {
+    return error.what();
+  }
 }
 
 inline const std::vector<float> kTetrahedron = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};

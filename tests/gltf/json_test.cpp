@@ -43,6 +43,15 @@ TEST_CASE("what is no JSON is refused") {
   }
 }
 
+TEST_CASE("a byte order mark is named") {
+  for (const std::string text : {"\xEF\xBB\xBF", "\xEF\xBB\xBF[]"}) try {
+      JsonDocument document(std::as_bytes(std::span(text)), {});
+      FAIL("it was read");
+    } catch (const Error& error) {
+      CHECK(std::string(error.what()).find("byte order mark") != std::string::npos);
+    }
+}
+
 TEST_CASE("an ordered document is written as it was read") {
   const std::string text =
       R"({"z":null,"a":[18446744073709551615,-9223372036854775808,1.0,0.1,1e-300],"":{"y":{},"x":[]},"u":"\u0001é","b":true})";

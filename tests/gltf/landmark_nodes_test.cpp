@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
@@ -167,6 +168,25 @@ TEST_CASE("landmarks that cannot be placed are refused") {
   landmarks = three_landmarks();
   landmarks[1].position.x() = 1e300;
   CHECK_THROWS_AS(add_landmarks(source, primitives, landmarks), Error);
+}
+
+TEST_CASE("a landmark of which a number is not finite is refused") {
+  const auto source = tetrahedron().glb();
+  const auto mesh = read_gltf_memory(source);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (int which = 0; which < 4; ++which) {
+    auto landmarks = three_landmarks();
+    if (which == 0) landmarks[1].position.y() = nan;
+    if (which == 1) landmarks[1].position.y() = 1e300;  // finite in double precision alone
+    if (which == 2) landmarks[1].point.barycentric.z() = nan;
+    if (which == 3) landmarks[1].confidence = nan;
+    try {
+      add_landmarks(source, mesh.primitives, landmarks);
+      FAIL("it was written");
+    } catch (const Error& error) {
+      CHECK(error.status() == Status::invalid_landmark);
+    }
+  }
 }
 
 TEST_CASE("the rigged characters take landmarks and keep everything else") {

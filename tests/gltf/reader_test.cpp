@@ -2,7 +2,6 @@
 #include "gltf/reader.h"
 
 #include <doctest/doctest.h>
-#include <meshoptimizer.h>
 #include <sys/stat.h>
 
 #include <filesystem>
@@ -201,63 +200,6 @@ TEST_CASE("a skinned mesh is placed by its joints, not by its node") {
   mesh = read_gltf_memory(file.glb());
   CHECK(position(mesh, 1) == Vector3(1, 3, 0));
   CHECK(mesh.warnings.size() == 1);
-}
-
-TEST_CASE("EXT_meshopt_compression is decoded") {
-  std::vector<float> points;
-  std::vector<uint32_t> faces;
-  for (int i = 0; i < 100; ++i)
-    for (const float value : {float(i % 10), float(i / 10), 0.5f * float(i)}) points.push_back(value);
-  for (uint32_t i = 0; i < 90; ++i)
-    if (i % 10 != 9)
-      for (const uint32_t corner : {i, i + 1, i + 10}) faces.push_back(corner);
-  std::vector<uint8_t> packed(meshopt_encodeVertexBufferBound(100, 12));
-  packed.resize(meshopt_encodeVertexBuffer(packed.data(), packed.size(), points.data(), 100, 12));
-  std::vector<uint8_t> packed_faces(meshopt_encodeIndexBufferBound(faces.size(), 100));
-  packed_faces.resize(
-      meshopt_encodeIndexBuffer(packed_faces.data(), packed_faces.size(), faces.data(), faces.size()));
-
-  GltfBuilder file;
-  const auto compress = [&](const std::vector<uint8_t>& data, const char* mode, size_t count, size_t stride) {
-    const int view = file.add_view(data);
-    json& element = file.root["bufferViews"][size_t(view)];
-    element["extensions"]["EXT_meshopt_compression"] = {{"buffer", 0},
-                                                        {"byteOffset", element["byteOffset"]},
-                                                        {"byteLength", element["byteLength"]},
-                                                        {"mode", mode},
-                                                        {"count", count},
-                                                        {"byteStride", stride}};
-    element["buffer"] = 1;
-    element["byteOffset"] = 0;
-    element["byteLength"] = count * stride;
-    return view;
-  };
-  const int positions = compress(packed, "ATTRIBUTES", 100, 12);
-  const int indices = compress(packed_faces, "TRIANGLES", faces.size(), 4);
-  file.add("accessors",
-           {{"bufferView", positions}, {"componentType", 5126}, {"type", "VEC3"}, {"count", 100}});
-  file.add("accessors",
-           {{"bufferView", indices}, {"componentType", 5125}, {"type", "SCALAR"}, {"count", faces.size()}});
-  file.add_mesh(0, 1);
-  file.root["extensionsRequired"] = {"EXT_meshopt_compression"};
-  json buffers = {{{"byteLength", file.bin.size()}}, {{"byteLength", 100'000}}};
-  json complete = file.root;
-  complete["buffers"] = buffers;
-  const auto bytes = glb_bytes(complete.dump(), bin_chunk(file.bin));
-  const GltfMesh mesh = read_gltf_memory(bytes);
-  CHECK(position(mesh, 57) == Vector3(7, 5, 28.5));
-  REQUIRE(mesh.mesh.triangle_count() == int32_t(faces.size() / 3));
-  for (int32_t t = 0; t < mesh.mesh.triangle_count(); ++t) {  // the codec may turn a triangle's corners
-    auto row = mesh.mesh.triangles.row(t);
-    CHECK(row.minCoeff() == int32_t(faces[size_t(3 * t)]));
-    CHECK(row.sum() == int32_t(3 * faces[size_t(3 * t)] + 11));
-  }
-  // Cut data, and a count the data cannot hold.
-  complete["bufferViews"][0]["extensions"]["EXT_meshopt_compression"]["byteLength"] = 50;
-  CHECK(status_of(glb_bytes(complete.dump(), bin_chunk(file.bin))) == Status::invalid_file);
-  complete["bufferViews"][0]["extensions"]["EXT_meshopt_compression"]["count"] = 8000;
-  complete["bufferViews"][0]["byteLength"] = 96000;
-  CHECK(status_of(glb_bytes(complete.dump(), bin_chunk(file.bin))) == Status::invalid_file);
 }
 
 TEST_CASE("files beside the .gltf are read only when allowed, and only inside its folder") {

@@ -34,11 +34,15 @@ TEST_CASE("malformed data URIs are refused") {
   CHECK_FALSE(decoded("Zm9v===="));
   CHECK_FALSE(data_uri_bytes("data:text/plain,hello"));
   CHECK_FALSE(data_uri_bytes("file.bin"));
+  CHECK_FALSE(data_uri_bytes("x:;base64,Zg=="));
+  CHECK_FALSE(data_uri_bytes("data:,AAAA"));
 }
 
 TEST_CASE("percent escapes") {
   CHECK(percent_decoded("a%20b%2Fc") == "a b/c");
+  CHECK(percent_decoded("%2F") == "/");
   CHECK_FALSE(percent_decoded("a%2"));
+  CHECK_FALSE(percent_decoded(std::string_view("a%2F").substr(0, 3)));
   CHECK_FALSE(percent_decoded("%zz"));
 }
 

@@ -54,9 +54,20 @@ TEST_CASE("a mesh that glTF cannot hold is refused") {
   TriangleMesh mesh = tetrahedron_mesh();
   CHECK(status_of({}) == Status::invalid_mesh);
   CHECK(status_of(mesh, RowMatrixf::Zero(3, 3)) == Status::invalid_argument);
+  CHECK(status_of(mesh, RowMatrixf::Zero(4, 4)) == Status::invalid_argument);
   mesh.positions(0, 0) = 1e300;
   CHECK(status_of(mesh) == Status::invalid_mesh);
   mesh = tetrahedron_mesh();
   mesh.triangles(1, 1) = 4;
   CHECK(status_of(mesh) == Status::invalid_mesh);
+}
+
+TEST_CASE("a .glb of more than 4 GiB is refused before memory is taken for it") {
+  const std::byte one{};
+  try {
+    glb_bytes("{}", std::span(&one, size_t{1} << 32));  // only its size is looked at
+    FAIL("it was written");
+  } catch (const Error& error) {
+    CHECK(error.status() == Status::unsupported);
+  }
 }
