@@ -112,7 +112,7 @@ int32_t ByteReader::count(const char* what, uint64_t item_bits, int32_t least, i
 }
 
 std::string ByteReader::text(const char* what) {
-  const int32_t size = count(what, 8);
+  const int32_t size = i32(what, 0, std::numeric_limits<int32_t>::max());
   return text_of(raw(what, static_cast<size_t>(size)));
 }
 

@@ -58,7 +58,8 @@ class ByteReader {
   double f64(const char* what, double least = std::numeric_limits<double>::lowest(),
              double most = std::numeric_limits<double>::max());
   std::vector<float> f32s(const char* what, size_t count, float least, float most);
-  // A u32 number of items that take at least `item_bits` each, so that no allocation outgrows the file.
+  // A u32 number of items that take at least `item_bits` each: for those whose memory is taken before they are read, so that no
+  // allocation outgrows the file.
   int32_t count(const char* what, uint64_t item_bits, int32_t least = 0,
                 int32_t most = std::numeric_limits<int32_t>::max());
   std::string text(const char* what);

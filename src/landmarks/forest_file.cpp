@@ -4,6 +4,7 @@
 #include "landmarks/forest_file.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "base/error.h"
 #include "descriptors/descriptor.h"
@@ -55,7 +56,7 @@ void write_tree(const RegressionTree& tree, LeafKind leaves, int32_t sample_coun
 
 // Fills feature, threshold and child; returns the number of leaves.
 int32_t read_shape(ByteReader& in, int32_t components, RegressionTree& tree) {
-  const int32_t nodes = in.count("node count", 16, 1);  // a node with its share of what follows takes more
+  const int32_t nodes = in.i32("node count", 1, std::numeric_limits<int32_t>::max());
   const std::vector<uint32_t> is_leaf = in.packed("node kind", static_cast<size_t>(nodes), 1, 1);
   const auto leaves = static_cast<int32_t>(std::count(is_leaf.begin(), is_leaf.end(), 1U));
   const int32_t inner_nodes = nodes - leaves;
@@ -106,7 +107,7 @@ RegressionForest read_forest(ByteReader& in, LeafKind leaves, int32_t tree_count
                              int32_t components) {
   if (in.u8("leaf kind") != static_cast<uint8_t>(leaves)) in.fail("the leaves are not those of the preset");
   RegressionForest forest;
-  const int32_t count = in.count("tree count", 32, tree_count, tree_count);
+  const int32_t count = in.i32("tree count", tree_count, tree_count);
   for (int32_t t = 0; t < count; ++t) {
     RegressionTree tree;
     const int32_t leaf_count = read_shape(in, components, tree);

@@ -30,7 +30,8 @@ bool is_utf8(std::string_view text) {
                           : lead < 0xF0 ? 2
                           : lead < 0xF5 ? 3
                                         : -1;
-    if (following < 0 || text.size() - i < static_cast<size_t>(following)) return false;
+    // -1 is more than any text has left.
+    if (text.size() - i < static_cast<size_t>(following)) return false;
     uint32_t code = following == 0 ? lead : lead & (0x3F >> following);
     for (int k = 0; k < following; ++k, ++i) {
       const auto next = static_cast<unsigned char>(text[i]);
@@ -86,7 +87,7 @@ void read_info(ByteReader in, LandmarkModel& model) {
   params.seed = in.u64("seed");
   model.shape_count = in.i32("shape count", 1, most);
   model.mean_vertex_count = in.i32("mean vertex count", 1, most);
-  const int32_t count = in.count("landmark count", 32, 1, landmark_limit);
+  const int32_t count = in.i32("landmark count", 1, landmark_limit);
   for (int32_t l = 0; l < count; ++l) {
     const std::string name = read_name(in, "landmark name");
     const auto& names = model.landmark_names;
@@ -125,7 +126,7 @@ void write_forests(const LandmarkModel& model, ByteWriter& out) {
 void read_forests(ByteReader in, LandmarkModel& model) {
   const bool default_preset = model.params.preset == Preset::default_preset;
   const auto wanted = default_preset ? 1 : static_cast<int32_t>(model.landmark_names.size());
-  const int32_t count = in.count("forest count", 32, wanted, wanted);
+  const int32_t count = in.i32("forest count", wanted, wanted);
   const LeafKind leaves = default_preset ? LeafKind::samples : LeafKind::means;
   const auto samples = static_cast<int32_t>(model.targets.rows());
   for (int32_t f = 0; f < count; ++f)
@@ -148,7 +149,7 @@ void write_constellation(const LandmarkModel& model, ByteWriter& out) {
 void read_constellation(ByteReader in, LandmarkModel& model) {
   const auto all = static_cast<int32_t>(model.landmark_names.size());
   const int32_t none_or_all = model.params.preset == Preset::default_preset ? all : 0;
-  const int32_t L = in.count("landmark count", 64, none_or_all, all);
+  const int32_t L = in.i32("landmark count", none_or_all, all);
   if (L != 0 && L != all) in.fail("the landmark count is not the model's");
   ConstellationStatistics& constellation = model.constellation;
   constellation.landmarks = L;
@@ -203,7 +204,7 @@ AtlasShape read_atlas_shape(ByteReader& in, int32_t L) {
 
 void read_atlas(ByteReader in, LandmarkModel& model) {
   const auto L = static_cast<int32_t>(model.landmark_names.size());
-  const int32_t count = in.count("shape count", 64, 0, model.shape_count);
+  const int32_t count = in.i32("shape count", 0, model.shape_count);
   for (int32_t s = 0; s < count; ++s) model.atlas.push_back(read_atlas_shape(in, L));
   in.expect_end();
 }
@@ -228,11 +229,11 @@ void write_calibration(const LandmarkModel& model, ByteWriter& out) {
 void read_calibration(ByteReader in, LandmarkModel& model) {
   const auto all = static_cast<int32_t>(model.landmark_names.size());
   const int32_t none_or_all = model.params.preset == Preset::default_preset ? all : 0;
-  const int32_t L = in.count("landmark count", 32, none_or_all, all);
+  const int32_t L = in.i32("landmark count", none_or_all, all);
   if (L != 0 && L != all) in.fail("the landmark count is not the model's");
   Calibration& calibration = model.calibration;
   calibration.typical_vote = in.f32s("typical vote", static_cast<size_t>(L), 0, any_number);
-  in.count("feature count", 32, Calibration::feature_count, Calibration::feature_count);
+  in.i32("feature count", Calibration::feature_count, Calibration::feature_count);
   for (float& weight : calibration.weight) weight = in.f32("weight", -any_number, any_number);
   for (float& weight : calibration.absent_weight) weight = in.f32("weight", -any_number, any_number);
   for (float& length : calibration.typical_length) length = in.f32("typical length", -any_number, any_number);
@@ -301,7 +302,7 @@ ShapeRig read_shape_rig(ByteReader& in, size_t points, int32_t joints) {
 }
 
 void read_skeleton(ByteReader in, LandmarkModel& model) {
-  const int32_t joints = in.count("joint count", 72, 1, joint_limit);
+  const int32_t joints = in.i32("joint count", 1, joint_limit);
   for (int32_t j = 0; j < joints; ++j) {
     std::string name = read_name(in, "joint name");
     model.skeleton.push_back({std::move(name), in.i32("parent", -1, j - 1)});

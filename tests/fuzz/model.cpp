@@ -6,7 +6,7 @@
 #include "fuzz.h"
 #include "landmarks/analysis_file.h"
 #include "landmarks/model_file.h"
-#include "landmarks/signed_archive.h"
+#include "base/signed_archive.h"
 #include "seeds.h"
 
 using namespace focal;

@@ -134,7 +134,7 @@ TEST_CASE("what is no animation is refused or passed over") {
         1);  // of the mesh's node; the other moves a joint
   CHECK(read("/animations/0/name", 3).at(0).name == "animation");
   CHECK(read("/nodes/1/name", 3).at(0).joints.size() == 1);
-  for (const auto& [place, value] :
+  for (const auto& change :
        std::vector<std::pair<const char*, json>>{{"/animations/0", 3},
                                                  {"/animations/0/channels", "none"},
                                                  {"/animations/0/channels/0/target", 3},
@@ -145,8 +145,8 @@ TEST_CASE("what is no animation is refused or passed over") {
                                                  {"/animations/0/samplers/1/input", 0},
                                                  {"/animations/0/samplers/0/interpolation", "CUBICSPLINE"},
                                                  {"/animations/0/channels/0/target/path", "scale"}}) {
-    CAPTURE(std::string(place));
-    CHECK_THROWS_AS(read(place, value), Error);
+    CAPTURE(std::string(change.first));
+    CHECK_THROWS_AS(read(change.first, change.second), Error);
   }
 }
 

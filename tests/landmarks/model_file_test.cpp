@@ -12,10 +12,10 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "base/signed_archive.h"
 #include "descriptors/descriptor.h"
 #include "descriptors/si_hks.h"
 #include "geodesics/distance.h"
-#include "landmarks/signed_archive.h"
 #include "landmarks/small_model.h"
 
 using namespace focal;

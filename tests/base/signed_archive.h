@@ -2,7 +2,9 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "base/crc32c.h"
@@ -32,6 +34,16 @@ inline void sign(std::vector<std::byte>& file) {
       put(file, entry + 4, focal::crc32c(all.subspan(offset, size)));
   }
   put(file, 28, focal::crc32c(all.subspan(header, sections * entry_size), focal::crc32c(all.first(28))));
+}
+
+// The file with another u32 in a section, its checksums right.
+inline std::vector<std::byte> patched(std::vector<std::byte> file, std::string_view section, size_t at,
+                                      uint32_t value) {
+  size_t entry = 32;
+  while (std::memcmp(&file.at(entry), section.data(), 4) != 0) entry += 24;
+  put(file, number_at(file, entry + 8, 8) + at, value);
+  sign(file);
+  return file;
 }
 
 }  // namespace focal_test
