@@ -1,58 +1,73 @@
-"""Coverage by file and in all, from the counters that an instrumented build left behind.
+"""Coverage of what reads foreign bytes and of the C interface, from what llvm-cov exports.
 
-A branch that only an exception takes is left out: gcov marks such edges, which any call that may throw brings along.
-usage: report.py BUILD LEAST_PERCENT
+A branch is one way that a condition of the source goes: each operand of && and ||, each if, loop, ?: and case counts twice.
+What an exception does and what the compiler adds by itself (clean-up, guards of statics) is no condition and is not counted.
+Conditions that are settled when the code is compiled are left out: they cannot go another way.
+usage: report.py COVERAGE.json [LEAST_PERCENT] [--missing]
 """
 import collections
+import fnmatch
 import json
 import pathlib
-import subprocess
 import sys
 
-build, least = pathlib.Path(sys.argv[1]).resolve(), float(sys.argv[2])
+numbers = [a for a in sys.argv[2:] if not a.startswith("--")]
+least = float(numbers[0]) if numbers else 90
 root = pathlib.Path(__file__).resolve().parents[2]
-lines, branches = collections.defaultdict(dict), collections.defaultdict(dict)  # per file: place -> times taken
-
-counters = sorted(build.rglob("*.gcda"))
-if not counters:
-    sys.exit("report.py: no counters; was it built with FOCAL_COVERAGE=ON, and did its tests run?")
-for counter in counters:
-    text = subprocess.run(["gcov", "--json-format", "--branch-probabilities", "--stdout", counter],
-                          cwd=build, check=True, capture_output=True, text=True).stdout
-    for report in filter(None, text.splitlines()):
-        for file in json.loads(report)["files"]:
-            path = pathlib.Path(file["file"])
-            path = (build / path).resolve() if not path.is_absolute() else path
-            if root not in path.parents or not path.relative_to(root).as_posix().startswith(("src/", "capi/")):
-                continue
-            name = path.relative_to(root).as_posix()
-            if path.suffix != ".cpp":
-                continue
-            for line in file["lines"]:
-                number = line["line_number"]
-                lines[name][number] = lines[name].get(number, 0) + line["count"]
-                # Templates and lambdas come several times; the same edges of each are one branch.
-                for index, branch in enumerate(b for b in line["branches"] if not b["throw"]):
-                    place = (number, index)
-                    branches[name][place] = branches[name].get(place, 0) + branch["count"]
+GROUPS = {"src/gltf/*": "gltf", "src/base/archive.*": "model file", "src/landmarks/*_file.*": "model file", "capi/*": "capi"}
 
 
-def share(counts):
-    return sum(count > 0 for count in counts), len(counts)
+def group_of(name):
+    return next((group for pattern, group in GROUPS.items() if fnmatch.fnmatch(name, pattern)), None)
 
 
-def row(name, line_counts, branch_counts):
-    (l, of_l), (b, of_b) = share(line_counts), share(branch_counts)
-    percent = lambda part, whole: 100 * part / whole if whole else 100
-    print(f"{name:42} lines {l:5}/{of_l:5} {percent(l, of_l):5.1f} %   branches {b:5}/{of_b:5} {percent(b, of_b):5.1f} %")
-    return percent(b, of_b)
+def lines_of(segments):
+    """Whether a line is reached, by the regions that begin on it or that hold its beginning."""
+    reached, current = {}, None
+    by_line = collections.defaultdict(list)
+    for line, _, count, has_count, *_ in segments:
+        by_line[line].append(count if has_count else None)
+    for line in range(1, max(by_line, default=0) + 1):
+        counts = [c for c in [current, *by_line[line]] if c is not None]
+        if counts:
+            reached[line] = max(counts) > 0
+        current = by_line[line][-1] if by_line[line] else current
+    return reached
 
 
-for name in sorted(lines):
-    row(name, lines[name].values(), branches[name].values())
-    if "--missing" in sys.argv:
-        missing = sorted({place[0] for place, count in branches[name].items() if not count})
-        print("    branches not taken on lines", *missing)
-total = row("in all", [c for f in lines.values() for c in f.values()], [c for f in branches.values() for c in f.values()])
-print(f"{total:.1f} % of the branches are taken, {least:g} % wanted")
-sys.exit(total < least)
+def main():
+    exported = pathlib.Path(sys.argv[1]).resolve()
+    reached, ways = collections.defaultdict(collections.Counter), collections.defaultdict(collections.Counter)
+    for file in json.loads(exported.read_text())["data"][0]["files"]:
+        path = (exported.parent / file["filename"]).resolve()  # relative ones are of the build
+        name = path.relative_to(root).as_posix() if root in path.parents else ""
+        if not group_of(name):
+            continue
+        source = path.read_text().splitlines()
+        reached[name].update(lines_of(file["segments"]))
+        for line, column, _, _, taken, not_taken, *_ in file["branches"]:  # instances of a template are one
+            if "if constexpr" not in source[line - 1]:
+                ways[name].update({(line, column, True): taken, (line, column, False): not_taken})
+    totals = collections.defaultdict(lambda: [0, 0, 0, 0])
+    for name, lines in sorted(reached.items()):
+        row = [sum(c > 0 for c in lines.values()), len(lines), sum(c > 0 for c in ways[name].values()), len(ways[name])]
+        totals[group_of(name)] = [a + b for a, b in zip(totals[group_of(name)], row)]
+        tell(name, row)
+        for (line, column, way), count in sorted(ways[name].items()):
+            if "--missing" in sys.argv and not count:
+                text = (root / name).read_text().splitlines()[line - 1].strip()
+                print(f"    {line}:{column} never {'true' if way else 'false'}:  {text}")
+    failed = [tell(group, row) < least for group, row in totals.items()]
+    print(f"wanted: {least:g} % of the branches of each")
+    sys.exit(any(failed))
+
+
+def tell(name, row):
+    reached, lines, taken, ways = row
+    percent = 100 * taken / ways if ways else 100
+    print(f"{name:36} lines {reached:5}/{lines:5} {100 * reached / max(lines, 1):5.1f} %   "
+          f"branches {taken:5}/{ways:5} {percent:5.1f} %")
+    return percent
+
+
+main()
