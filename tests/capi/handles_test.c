@@ -4,13 +4,26 @@
 #include "check.h"
 #include "shapes.h"
 
+/* Before any handle was made, and the very first one. */
+static void check_first(void) {
+  focal_task* task = NULL;
+  int here = 0;
+  CHECK(focal_task_destroy((focal_task*)(void*)&here) == FOCAL_ERROR_INVALID_HANDLE);
+  CHECK_REFUSED(focal_task_cancel((focal_task*)(void*)&here), FOCAL_ERROR_INVALID_HANDLE,
+                "not made by this library");
+  CHECK_OK(focal_task_create(&task));
+  CHECK_REFUSED(focal_task_cancel((focal_task*)((char*)task + 1)), FOCAL_ERROR_INVALID_HANDLE,
+                "not made by this library");
+  CHECK_OK(focal_task_destroy(task));
+  CHECK_REFUSED(focal_task_cancel(task), FOCAL_ERROR_INVALID_HANDLE, "has been destroyed");
+}
+
 static void check_wrong_handles(void) {
   focal_context* context = NULL;
   focal_task* task = NULL;
   focal_mesh* mesh = NULL;
   focal_mesh_info info;
   int here = 0;
-  CHECK(strcmp(focal_last_error(), "") == 0);
   CHECK_OK(focal_mesh_info_init(&info, sizeof info));
   CHECK_OK(focal_context_create(NULL, &context));
   mesh = shape_mesh(context, 6, 0);
@@ -102,7 +115,41 @@ static void check_threads(void) {
   CHECK_OK(focal_context_destroy(context));
 }
 
+/* Each kind of handle is told by its name. */
+static void check_names(void) {
+  const void* handle = NULL;
+  focal_context* context = NULL;
+  focal_mesh_info info;
+  float x;
+  focal_surface_point point;
+  CHECK_OK(focal_mesh_info_init(&info, sizeof info));
+  CHECK_OK(focal_context_create(NULL, &context));
+  focal_training_set* set = shape_training_set(context, 6, 1);
+  handle = set;
+  CHECK_REFUSED(focal_mesh_get_info(handle, &info), FOCAL_ERROR_INVALID_HANDLE,
+                "this is a focal_training_set");
+  handle = context;
+  CHECK_REFUSED(focal_training_set_add_rig((focal_training_set*)(void*)context, NULL),
+                FOCAL_ERROR_INVALID_HANDLE, "a focal_training_set is needed");
+  CHECK_REFUSED(focal_model_save(handle, "x"), FOCAL_ERROR_INVALID_HANDLE, "a focal_model is needed");
+  CHECK_REFUSED(focal_analysis_save(handle, "x"), FOCAL_ERROR_INVALID_HANDLE, "a focal_analysis is needed");
+  CHECK_REFUSED(focal_detection_votes(handle, 0, 1, &x), FOCAL_ERROR_INVALID_HANDLE,
+                "a focal_detection is needed");
+  CHECK_REFUSED(focal_skeleton_write_gltf(handle, "x"), FOCAL_ERROR_INVALID_HANDLE,
+                "a focal_skeleton is needed");
+  CHECK_REFUSED(focal_correspondence_points(handle, 1, &point), FOCAL_ERROR_INVALID_HANDLE,
+                "a focal_correspondence is needed");
+  CHECK_REFUSED(focal_task_cancel((focal_task*)(void*)context), FOCAL_ERROR_INVALID_HANDLE,
+                "a focal_task is needed");
+  CHECK(focal_blob_size(handle) == 0 && strstr(focal_last_error(), "a focal_blob is needed"));
+  focal_training_set_destroy(set);
+  focal_context_destroy(context);
+}
+
 int main(void) {
+  CHECK(strcmp(focal_last_error(), "") == 0);
+  check_first();
+  check_names();
   check_wrong_handles();
   check_destroy();
   check_never_reused();

@@ -161,5 +161,5 @@ int main(void) {
   shape_destroy(&truth);
   focal_mesh_destroy(mesh);
   focal_context_destroy(context);
-  return 0;
+  FINISH();
 }

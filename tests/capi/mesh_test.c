@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "check.h"
+#include "rigged_shape.h"
 #include "shapes.h"
 
 static focal_context* context;
@@ -207,6 +208,140 @@ static void check_lenient(shape* body) {
   body->positions[121] = kept, body->indices[0] = first, body->indices[5] = second;
 }
 
+static focal_status load_nothing(const focal_mesh_params* params) {
+  focal_mesh* mesh = NULL;
+  return focal_mesh_load_gltf_memory(context, "", 0, params, &mesh);
+}
+
+/* A field takes the two values in the middle; the ones around them are refused by its name. */
+#define MESH(field, below, least, most, above)                                                              \
+  do {                                                                                                      \
+    const double values[] = {below, least, most, above};                                                    \
+    for (int i = 0; i < 4; ++i) {                                                                           \
+      focal_mesh_params params;                                                                             \
+      CHECK_OK(focal_mesh_params_init(&params, sizeof params));                                             \
+      params.field = values[i];                                                                             \
+      const int taken = i == 1 || i == 2;                                                                   \
+      CHECK_REFUSED(load_nothing(&params), taken ? FOCAL_ERROR_INVALID_FILE : FOCAL_ERROR_INVALID_ARGUMENT, \
+                    taken ? "empty" : "focal_mesh_params." #field " is");                                   \
+    }                                                                                                       \
+  } while (0)
+
+static void check_ranges(void) {
+  MESH(weld, -1, 0, 1, 2);
+  MESH(drop_degenerate, -1, 0, 1, 2);
+  MESH(bridge_components, -1, 0, 1, 2);
+  MESH(allow_external_files, -1, 0, 1, 2);
+  MESH(keep_source_file, -1, 0, 1, 2);
+  MESH(lenient, -1, 0, 1, 2);
+  MESH(max_vertices, 0, 1, INT32_MAX, INT32_MAX + 1.0);
+  MESH(max_triangles, 0, 1, INT32_MAX, INT32_MAX + 1.0);
+  MESH(max_nodes, 0, 1, INT32_MAX, INT32_MAX + 1.0);
+  MESH(max_json_bytes, 0, 1, 0x1p40, 0x1p40 + 1);
+  MESH(max_file_bytes, 0, 1, 0x1p40, 0x1p40 + 1);
+  MESH(pose_time, -0.5, 0, 1e9, 2e9);
+  focal_mesh_params params;
+  focal_mesh* mesh = NULL;
+  CHECK_OK(focal_mesh_params_init(&params, sizeof params));
+  params.reserved = 1;
+  CHECK_REFUSED(focal_mesh_load_gltf_memory(context, "", 0, &params, &mesh), FOCAL_ERROR_UNSUPPORTED,
+                "reserved");
+  CHECK_REFUSED(focal_mesh_load_gltf_memory(context, "x", UINT64_MAX, NULL, &mesh),
+                FOCAL_ERROR_INVALID_ARGUMENT, "size is 18446744073709551615");
+  CHECK_REFUSED(focal_mesh_load_gltf_memory(context, "x", UINT64_C(1) << 63, NULL, &mesh),
+                FOCAL_ERROR_INVALID_ARGUMENT, "size is 9223372036854775808");
+}
+
+static void check_limits(const shape* body) {
+  focal_mesh_desc desc = shape_desc(body);
+  focal_mesh_params params;
+  focal_mesh* mesh = NULL;
+  const char* beyond = "more vertices or triangles than allowed";
+  CHECK_OK(focal_mesh_params_init(&params, sizeof params));
+  params.max_vertices = body->vertex_count, params.max_triangles = body->index_count / 3;
+  CHECK_OK(focal_mesh_create(context, &desc, &params, &mesh));
+  focal_mesh_destroy(mesh);
+  --params.max_vertices;
+  CHECK_REFUSED(focal_mesh_create(context, &desc, &params, &mesh), FOCAL_ERROR_UNSUPPORTED, beyond);
+  ++params.max_vertices, --params.max_triangles;
+  CHECK_REFUSED(focal_mesh_create(context, &desc, &params, &mesh), FOCAL_ERROR_UNSUPPORTED, beyond);
+  desc.position_stride = 12;
+  CHECK_OK(create(&desc));
+  for (uint32_t stride = 8; stride <= 15; ++stride) {
+    desc.position_stride = stride;
+    if (stride != 12) CHECK_REFUSED(create(&desc), FOCAL_ERROR_INVALID_ARGUMENT, "position_stride is");
+  }
+}
+
+/* A character as it stands at a time of its animation; and what has no such animation. */
+static void check_pose(void) {
+  size_t size = 0, bare_size = 0;
+  unsigned char* glb = rigged_glb(8, 0, &size);
+  shape body = shape_create(8, 0);
+  unsigned char* bare = shape_glb(&body, &bare_size);
+  focal_mesh_params params;
+  focal_mesh *mesh = NULL, *posed = NULL;
+  CHECK_OK(focal_mesh_params_init(&params, sizeof params));
+  params.keep_source_file = 0;
+  CHECK_OK(focal_mesh_load_gltf_memory(context, glb, size, &params, &mesh));
+  params.pose_animation = "wave", params.pose_time = 1;
+  CHECK_OK(focal_mesh_load_gltf_memory(context, glb, size, &params, &posed));
+  int moved = 0, still = 0;
+  for (uint64_t v = 0; posed && v < body.vertex_count; ++v) {
+    const float *before = focal_mesh_positions(mesh) + 3 * v, *after = focal_mesh_positions(posed) + 3 * v;
+    if (memcmp(before, after, 12) == 0)
+      ++still;
+    else
+      ++moved;
+    CHECK(fabsf(after[2] - before[2]) < 1e-5f); /* it turns about z */
+  }
+  CHECK(moved > 3 && still > 3);
+  focal_mesh_destroy(posed), posed = NULL;
+  params.pose_animation = "walk";
+  CHECK_REFUSED(focal_mesh_load_gltf_memory(context, glb, size, &params, &posed),
+                FOCAL_ERROR_INVALID_ARGUMENT, "no animation 'walk'");
+  CHECK(strstr(focal_last_error(), "it has: 'wave'") != NULL);
+  CHECK_REFUSED(focal_mesh_load_gltf_memory(context, bare, bare_size, &params, &posed),
+                FOCAL_ERROR_INVALID_ARGUMENT, "no animation 'walk'");
+  CHECK(strstr(focal_last_error(), "it has no skin") != NULL);
+  for (size_t i = 0; i + 13 < size; ++i) /* its animations under another name: none */
+    if (memcmp(glb + i, "\"animations\"", 12) == 0) glb[i + 1] = 'x';
+  CHECK_REFUSED(focal_mesh_load_gltf_memory(context, glb, size, &params, &posed),
+                FOCAL_ERROR_INVALID_ARGUMENT, "no animation 'walk'");
+  CHECK(strstr(focal_last_error(), "it has no animations") != NULL);
+  CHECK(posed == NULL);
+  focal_mesh_destroy(mesh);
+  free(glb), free(bare);
+  shape_destroy(&body);
+}
+
+/* A file on disk, with its neighbours allowed or not, kept or not, and misuse that is not the file's. */
+static void check_path(shape* body) {
+  size_t size = 0;
+  unsigned char* glb = shape_glb(body, &size);
+  FILE* file = fopen("mesh_test.glb", "wb");
+  CHECK(file && fwrite(glb, 1, size, file) == size && fclose(file) == 0);
+  focal_mesh_params params;
+  focal_mesh* mesh = NULL;
+  CHECK_OK(focal_mesh_params_init(&params, sizeof params));
+  for (int kept = 0; kept < 2; ++kept)
+    for (int external = 0; external < 2; ++external) {
+      params.keep_source_file = kept, params.allow_external_files = external;
+      CHECK_OK(focal_mesh_load_gltf(context, "mesh_test.glb", &params, &mesh));
+      CHECK(info_of(mesh).vertex_count == body->vertex_count);
+      focal_mesh_destroy(mesh), mesh = NULL;
+    }
+  params.weld = 7;
+  CHECK_REFUSED(focal_mesh_load_gltf(context, "mesh_test.glb", &params, &mesh), FOCAL_ERROR_INVALID_ARGUMENT,
+                "weld is 7");
+  CHECK(strstr(focal_last_error(), "mesh_test.glb") == NULL); /* the file is not to blame */
+  CHECK_REFUSED(focal_mesh_load_gltf(NULL, "mesh_test.glb", NULL, &mesh), FOCAL_ERROR_INVALID_HANDLE,
+                "focal_context is NULL");
+  CHECK(strstr(focal_last_error(), "mesh_test.glb") == NULL);
+  remove("mesh_test.glb");
+  free(glb);
+}
+
 int main(void) {
   shape body = shape_create(8, 0);
   CHECK_OK(focal_context_create(NULL, &context));
@@ -215,6 +350,10 @@ int main(void) {
   check_stride(&body);
   check_flipped(&body);
   check_lenient(&body);
+  check_ranges();
+  check_limits(&body);
+  check_pose();
+  check_path(&body);
   check_gltf(&body);
   shape_destroy(&body);
   focal_context_destroy(context);

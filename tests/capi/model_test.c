@@ -227,6 +227,46 @@ static void check_detect_params(const focal_model* model) {
   focal_mesh_destroy(mesh);
 }
 
+/* No mesh is given, so that being told so says that the parameters were taken. */
+static focal_status detect_nothing(const focal_model* model, const focal_detect_params* params) {
+  focal_detection* detection = NULL;
+  return focal_model_detect(model, NULL, params, NULL, &detection);
+}
+
+/* A field takes the two values in the middle; the ones around them are refused by its name. */
+#define DETECT(field, below, least, most, above)                                         \
+  do {                                                                                   \
+    const double values[] = {below, least, most, above};                                 \
+    for (int i = 0; i < 4; ++i) {                                                        \
+      focal_detect_params params;                                                        \
+      CHECK_OK(focal_detect_params_init(&params, sizeof params));                        \
+      params.field = values[i];                                                          \
+      const int taken = i == 1 || i == 2;                                                \
+      CHECK_REFUSED(detect_nothing(model, &params),                                      \
+                    taken ? FOCAL_ERROR_INVALID_HANDLE : FOCAL_ERROR_INVALID_ARGUMENT,   \
+                    taken ? "focal_mesh is NULL" : "focal_detect_params." #field " is"); \
+    }                                                                                    \
+  } while (0)
+
+static void check_detect_ranges(const focal_model* model) {
+  DETECT(quality, -1, 0, 1, 2);
+  DETECT(sampling_rate, -0.5, 0, 1, 1.5);
+  DETECT(max_samples, 0, 1, INT32_MAX, -1);
+  DETECT(peaks_per_landmark, 0, 1, 64, 65);
+  DETECT(found_confidence, -0.5, 0.5, 1, 1.5);
+  DETECT(absent_confidence, -0.5, 0, 0.25, 1);
+  DETECT(keep_votes, -1, 0, 1, 2);
+  focal_detect_params params;
+  focal_detection* detection = NULL;
+  CHECK_OK(focal_detect_params_init(&params, sizeof params));
+  params.found_confidence = params.absent_confidence = 0;
+  CHECK_REFUSED(focal_model_detect(model, NULL, &params, NULL, &detection), FOCAL_ERROR_INVALID_HANDLE,
+                "focal_mesh is NULL");
+  params.reserved = 1;
+  CHECK_REFUSED(focal_model_detect(model, NULL, &params, NULL, &detection), FOCAL_ERROR_UNSUPPORTED,
+                "reserved");
+}
+
 static void check_fixed_points(const focal_model* model) {
   shape body = shape_create(RINGS, 0.07f);
   focal_mesh* mesh = shape_mesh(context, RINGS, 0.07f);
@@ -269,6 +309,7 @@ int main(void) {
     check_files(model);
     check_detection(model);
     check_detect_params(model);
+    check_detect_ranges(model);
     check_fixed_points(model);
     focal_context_destroy(keep);
     focal_model_info info;

@@ -41,3 +41,13 @@ focal_training_set* shape_training_set(const focal_context* context, int rings, 
   }
   return set;
 }
+
+focal_model* shape_model(const focal_training_set* set) {
+  focal_model* model = NULL;
+  focal_train_params params;
+  insist(focal_train_params_init(&params, sizeof params));
+  params.eigenpair_count = 40, params.tree_count = 4, params.learn_confidence = 0;
+  params.max_samples_per_shape = 150, params.proxy_vertices = 150, params.rigged_shapes = 2;
+  insist(focal_model_train(set, &params, NULL, &model));
+  return model;
+}

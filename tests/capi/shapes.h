@@ -24,6 +24,9 @@ focal_mesh_desc shape_desc(const shape* shape);
 focal_mesh* shape_mesh(const focal_context* context, int rings, float variation);
 focal_training_set* shape_training_set(const focal_context* context, int rings, int count);
 
+/* A model of such a set, or of rigged characters, by few trees: learned in a moment. */
+focal_model* shape_model(const focal_training_set* set);
+
 /* A .glb of the shape in fresh memory; *size gets its length. */
 unsigned char* shape_glb(const shape* shape, size_t* size);
 

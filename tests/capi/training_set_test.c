@@ -1,5 +1,9 @@
 /* The training set as a builder, and training sets that nothing can be learned from. */
+#include <math.h>
+#include <stdlib.h>
+
 #include "check.h"
+#include "rigged_shape.h"
 #include "shapes.h"
 
 static focal_context* context;
@@ -18,6 +22,72 @@ static void check_names(void) {
   CHECK_REFUSED(focal_training_set_create(NULL, twice, 1, &set), FOCAL_ERROR_INVALID_HANDLE,
                 "focal_context is NULL");
   CHECK(set == NULL);
+}
+
+static void check_name_count(void) {
+  enum { MOST = 4096 };
+  static char texts[MOST + 1][8];
+  const char* names[MOST + 1];
+  for (int i = 0; i <= MOST; ++i) snprintf(texts[i], sizeof texts[i], "n%d", i), names[i] = texts[i];
+  focal_training_set* set = NULL;
+  CHECK_REFUSED(focal_training_set_create(context, names, MOST + 1, &set), FOCAL_ERROR_INVALID_ARGUMENT,
+                "landmark_count is 4097");
+  for (uint64_t count = 1; count <= MOST; count += MOST - 1) {
+    CHECK_OK(focal_training_set_create(context, names, count, &set));
+    CHECK(focal_training_set_landmark_count(set) == count);
+    focal_training_set_destroy(set);
+  }
+}
+
+/* The first and the last vertex and triangle are there, the next ones are not; weights are those of a point. */
+static void check_places(void) {
+  shape body = shape_create(8, 0);
+  focal_mesh* mesh = shape_mesh(context, 8, 0);
+  const uint32_t vertices = (uint32_t)body.vertex_count, triangles = (uint32_t)body.index_count / 3;
+  focal_surface_point point;
+  float position[3];
+  CHECK_OK(focal_mesh_point_at_vertex(mesh, vertices - 1, &point));
+  CHECK_REFUSED(focal_mesh_point_at_vertex(mesh, vertices, &point), FOCAL_ERROR_INVALID_LANDMARK,
+                "no vertex");
+  const focal_surface_point last = {triangles - 1, {0, 0, 1}}, behind = {triangles, {0, 0, 1}},
+                            nowhere = {0, {0, 0, 0}}, far_away = {0, {1, INFINITY, 0}};
+  CHECK_OK(focal_mesh_position_of(mesh, &last, position));
+  CHECK_REFUSED(focal_mesh_position_of(mesh, &behind, position), FOCAL_ERROR_INVALID_LANDMARK, "no triangle");
+  CHECK_REFUSED(focal_mesh_position_of(mesh, &nowhere, position), FOCAL_ERROR_INVALID_LANDMARK,
+                "barycentric");
+  CHECK_REFUSED(focal_mesh_position_of(mesh, &far_away, position), FOCAL_ERROR_INVALID_LANDMARK,
+                "barycentric");
+  focal_mesh_destroy(mesh);
+  shape_destroy(&body);
+}
+
+static void check_rigs(void) {
+  size_t size = 0;
+  unsigned char* glb = rigged_glb(8, 0, &size);
+  focal_mesh *rigged = NULL, *bare = NULL, *idle = NULL;
+  focal_training_set *rigs = NULL, *marks = shape_training_set(context, 8, 1);
+  CHECK_OK(focal_training_set_create(context, NULL, 0, &rigs));
+  CHECK_OK(focal_mesh_load_gltf_memory(context, glb, size, NULL, &rigged));
+  CHECK_OK(focal_training_set_add_rig(rigs, rigged));
+  CHECK(focal_training_set_mesh_count(rigs) == 1 && focal_training_set_landmark_count(rigs) == 0);
+  CHECK_REFUSED(focal_training_set_add_rig(marks, rigged), FOCAL_ERROR_INVALID_ARGUMENT,
+                "landmark names of its own");
+  for (size_t i = 0; i + 10 < size; ++i) { /* no influences, then no skin either */
+    if (memcmp(glb + i, "\"WEIGHTS_0\"", 11) == 0) memcpy(glb + i, "\"_EIGHTS_0\"", 11);
+  }
+  CHECK_OK(focal_mesh_load_gltf_memory(context, glb, size, NULL, &idle));
+  CHECK_REFUSED(focal_training_set_add_rig(rigs, idle), FOCAL_ERROR_INVALID_ARGUMENT,
+                "no vertex of the mesh is moved");
+  free(glb);
+  shape body = shape_create(8, 0);
+  glb = shape_glb(&body, &size);
+  CHECK_OK(focal_mesh_load_gltf_memory(context, glb, size, NULL, &bare));
+  CHECK_REFUSED(focal_training_set_add_rig(rigs, bare), FOCAL_ERROR_INVALID_ARGUMENT, "the mesh has no skin");
+  CHECK(focal_training_set_mesh_count(rigs) == 1);
+  free(glb);
+  shape_destroy(&body);
+  focal_mesh_destroy(rigged), focal_mesh_destroy(bare), focal_mesh_destroy(idle);
+  focal_training_set_destroy(rigs), focal_training_set_destroy(marks);
 }
 
 static void check_marks(void) {
@@ -63,6 +133,9 @@ static void check_one_mesh(void) {
 int main(void) {
   CHECK_OK(focal_context_create(NULL, &context));
   check_names();
+  check_name_count();
+  check_places();
+  check_rigs();
   check_marks();
   check_one_mesh();
   focal_context_destroy(context);

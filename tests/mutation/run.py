@@ -40,9 +40,10 @@ SUBJECTS = [
 ]
 # Of the C interface: tests/capi/X_test for capi/X.cpp, and these, the likeliest and quickest first.
 PROGRAMS = collections.defaultdict(list, {
-    "arguments": ["mesh", "model"], "boundary": ["structs"], "context": ["structs", "host"], "detection": ["model", "analysis"],
-    "detection_output": ["model"], "regions": ["model"], "segmentation": ["skeleton"], "skeleton_template": ["skeleton"],
-    "model": ["structs"], "status": ["structs"], "surface_points": ["mesh", "training_set"]})
+    "arguments": ["mesh", "model"], "boundary": ["structs"], "context": ["structs", "host"], "correspondence": ["detection"],
+    "detection": ["model", "analysis"], "detection_output": ["detection", "model"], "model": ["structs"],
+    "regions": ["detection", "model"], "segmentation": ["detection", "skeleton"], "skeleton_template": ["skeleton"],
+    "status": ["structs"], "surface_points": ["training_set", "mesh"], "training_set": ["skeleton"]})
 
 Mutant = collections.namedtuple("Mutant", "path line what start end new kind")  # new: what stands for text[start:end]
 

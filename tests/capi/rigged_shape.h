@@ -1,4 +1,4 @@
-/* A character: the test body of capi/shapes.h with a bone in each limb, skin weights and an animation, as a .glb. */
+/* A character: the test body of shapes.h with a bone in each limb, skin weights and an animation, as a .glb. */
 #ifndef FOCAL_TEST_RIGGED_SHAPE_H
 #define FOCAL_TEST_RIGGED_SHAPE_H
 
