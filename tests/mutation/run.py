@@ -43,7 +43,7 @@ PROGRAMS = collections.defaultdict(list, {
     "arguments": ["mesh", "model"], "boundary": ["structs"], "context": ["structs", "host"], "correspondence": ["detection"],
     "detection": ["model", "analysis"], "detection_output": ["detection", "model"], "model": ["structs"],
     "regions": ["detection", "model"], "segmentation": ["detection", "skeleton"], "skeleton_template": ["skeleton"],
-    "status": ["structs"], "surface_points": ["training_set", "mesh"], "training_set": ["skeleton"]})
+    "status": ["structs"], "structs": ["mesh"], "surface_points": ["training_set", "mesh"], "training_set": ["skeleton"]})
 
 Mutant = collections.namedtuple("Mutant", "path line what start end new kind")  # new: what stands for text[start:end]
 
