@@ -170,6 +170,40 @@ TEST_CASE("landmarks that cannot be placed are refused") {
   CHECK_THROWS_AS(add_landmarks(source, primitives, landmarks), Error);
 }
 
+TEST_CASE("a file without scenes gets one of its roots") {
+  GltfBuilder file = tetrahedron();
+  file.root.erase("scenes"), file.root.erase("scene");
+  file.root["nodes"] = json::parse(R"([{"mesh": 0}, {"children": [0]}])");
+  const auto source = file.glb();
+  const Ordered root = parsed(add_landmarks(source, read_gltf_memory(source).primitives, {}));
+  CHECK(root["scenes"][0]["nodes"] == Ordered({1, 2}));
+}
+
+TEST_CASE("landmarks to which the user has hung something of his own stay") {
+  const auto source = tetrahedron().glb();
+  const auto mesh = read_gltf_memory(source);
+  const auto once = add_landmarks(source, mesh.primitives, three_landmarks());
+  const auto group = parsed(once)["scenes"][0]["nodes"].back().get<size_t>();
+  const auto nodes_after = [&](size_t node, const json& addition) {
+    json root = json::parse(parsed(once).dump());
+    root["nodes"][node].merge_patch(addition);
+    root["nodes"].push_back({{"name", "mine"}});
+    if (addition.contains("camera")) root["cameras"] = {{{"type", "perspective"}}};
+    if (addition.contains("skin")) root["skins"] = {{{"joints", {group}}}};
+    const auto bytes = glb_bytes(root.dump(), open_container(once, {}).rest);
+    return parsed(add_landmarks(bytes, mesh.primitives, three_landmarks()))["scenes"][0]["nodes"].size();
+  };
+  CHECK(nodes_after(group, json::object()) == 2);  // the mesh and the new group
+  const size_t mine = group + 3;
+  for (const json& addition :
+       {json{{"mesh", 0}}, json{{"camera", 0}}, json{{"skin", 0}}, json{{"extras", nullptr}}}) {
+    CAPTURE(addition.dump());
+    CHECK(nodes_after(group, addition) == 3);
+    CHECK(nodes_after(group + 1, addition) == 3);
+  }
+  CHECK(nodes_after(group + 1, {{"children", {mine}}}) == 3);
+}
+
 TEST_CASE("a landmark of which a number is not finite is refused") {
   const auto source = tetrahedron().glb();
   const auto mesh = read_gltf_memory(source);

@@ -245,6 +245,30 @@ TEST_CASE("animations of the file keep their names and their nodes") {
       "skin"));  // glTF ignores the place of a node with a skin: it would stop moving
 }
 
+TEST_CASE("animations of any form are carried through, and one of weights alone does not move a node") {
+  GltfBuilder file = tetrahedron();
+  file.root["animations"] = json::parse(R"([{}, {"channels": "none"}, {"channels": [{}, {"target": {}},
+      {"target": {"node": "x", "path": 3}}, {"target": {"node": 0, "path": "weights"}}]}])");
+  std::vector<std::byte> written;
+  through_file(file.glb(), &written);
+  const json root = parsed(written);
+  CHECK(root["animations"] == file.root["animations"]);
+  CHECK(root["nodes"][0]["skin"] == 0);
+  file.root["animations"] = "none";
+  through_file(file.glb(), &written);
+  CHECK(parsed(written)["animations"] == "none");
+}
+
+TEST_CASE("a .glb without a BIN chunk gets one") {
+  GltfBuilder file;
+  file.add("accessors", {{"componentType", 5126}, {"type", "VEC3"}, {"count", 4}});  // zeros, without a view
+  file.add_mesh(0);
+  file.add_node({{"mesh", 0}});
+  std::vector<std::byte> written;
+  through_file(file.glb(), &written);
+  CHECK(open_container(written, {}).has_bin);
+}
+
 TEST_CASE("what a skin lacks") {
   const auto rig_of = [](const GltfBuilder& file) {
     const auto bytes = file.glb();
