@@ -3,10 +3,10 @@
 #include <memory>
 
 #include "base/error.h"
+#include "base/signed_archive.h"
 #include "fuzz.h"
 #include "landmarks/analysis_file.h"
 #include "landmarks/model_file.h"
-#include "base/signed_archive.h"
 #include "seeds.h"
 
 using namespace focal;
