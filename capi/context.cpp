@@ -26,9 +26,13 @@ std::shared_ptr<ContextObject> make_context(const focal_context_params& params) 
   check_range("focal_context_params.device_index", params.device_index, 0, 1023);
   check_range("focal_context_params.thread_count", params.thread_count, 0, 1024);
   auto context = std::make_shared<ContextObject>();
-  context->backend_reason = params.backend == FOCAL_BACKEND_CPU
-                                ? "the CPU was asked for"
-                                : "this build has no GPU module, so the CPU is used";
+  if (params.backend == FOCAL_BACKEND_CPU) {
+    context->cpu_reason = "the CPU was asked for";
+  } else {
+    LoadedBackend loaded = load_backend(backend_files(), params.device_index);
+    context->backend = std::move(loaded.backend), context->cpu_reason = std::move(loaded.reason);
+    context->execution.backend = context->backend.get();
+  }
   context->execution.thread_count = params.thread_count;
   if (params.memory_budget_bytes > 0) {
     const uint64_t limit = std::min<uint64_t>(params.memory_budget_bytes, INT64_MAX);
@@ -52,6 +56,12 @@ struct StructTraits<focal_context_params> {
 };
 static_assert(sizeof(void*) != 8 || (sizeof(focal_context_params) == 56 &&
                                      offsetof(focal_context_params, memory_budget_bytes) == 48));
+
+focal_backend ContextObject::used_backend() const {
+  return backend && backend->works() ? FOCAL_BACKEND_CUDA : FOCAL_BACKEND_CPU;
+}
+
+const char* ContextObject::backend_reason() const { return backend ? backend->reason() : cpu_reason.c_str(); }
 
 Execution ContextObject::execution_with(Task* task) const {
   Execution with_task = execution;
@@ -78,8 +88,10 @@ focal_status focal_context_params_init(focal_context_params* params, size_t stru
 focal_status focal_context_create(const focal_context_params* params, focal_context** out_context) {
   return guarded([&] {
     require(out_context, "out_context");
-    const auto context = make_context(read_struct(params));
-    context->report(FOCAL_LOG_INFO, context->backend_reason);
+    const focal_context_params how = read_struct(params);
+    const auto context = make_context(how);
+    const bool missed = how.backend == FOCAL_BACKEND_CUDA && !context->backend;
+    context->report(missed ? FOCAL_LOG_WARNING : FOCAL_LOG_INFO, context->backend_reason());
     *out_context = publish(context);
   });
 }
@@ -89,12 +101,12 @@ focal_status focal_context_destroy(focal_context* context) {
 }
 
 focal_backend focal_context_backend(const focal_context* context) {
-  return guarded_value<focal_backend>(0, [&] { return resolve<ContextObject>(context)->backend; });
+  return guarded_value<focal_backend>(0, [&] { return resolve<ContextObject>(context)->used_backend(); });
 }
 
 const char* focal_context_backend_reason(const focal_context* context) {
   return guarded_value<const char*>(nullptr,
-                                    [&] { return resolve<ContextObject>(context)->backend_reason.c_str(); });
+                                    [&] { return resolve<ContextObject>(context)->backend_reason(); });
 }
 
 uint64_t focal_context_memory_held(const focal_context* context) {

@@ -6,6 +6,7 @@
 
 #include "base/memory_budget.h"
 #include "base/parallel.h"
+#include "compute/module_loader.h"
 #include "handles.h"
 
 namespace focal {
@@ -14,13 +15,15 @@ struct ContextObject {
   using Handle = focal_context;
   static constexpr HandleType type = HandleType::context;
 
-  focal_backend backend = FOCAL_BACKEND_CPU;
-  std::string backend_reason;
+  std::shared_ptr<const Backend> backend;             // null: the CPU
+  std::string cpu_reason;                             // then why
   Execution execution;                                // without a task
   std::shared_ptr<const MemoryBudget> memory_budget;  // null: none
   focal_log_fn log = nullptr;
   void* log_user_data = nullptr;
 
+  focal_backend used_backend() const;
+  const char* backend_reason() const;
   Execution execution_with(Task* task) const;
   void report(focal_log_level level, const std::string& message) const;
   void report_warnings(const std::vector<std::string>& warnings) const;

@@ -194,10 +194,10 @@ focal_status focal_model_analyse(const focal_model* model, const focal_mesh* mes
     const Call call(model, params, task);
     const auto object = std::make_shared<AnalysisObject>();
     object->mesh = resolve<MeshObject>(mesh);
-    call.execution.begin_stage("analysis", 0, 0.8);
-    object->analysis = analyse_for(call.model->info.params, object->mesh->mesh, call.params, call.execution);
-    call.execution.begin_stage("distances", 0.8, 1);
-    keep_distances(object->analysis, call.execution);
+    std::string note;
+    object->analysis =
+        analyse_to_keep(call.model->info.params, object->mesh->mesh, call.params, call.execution, note);
+    if (!note.empty()) call.model->context->report(FOCAL_LOG_WARNING, note);
     call.execution.begin_stage("done", 1, 1);
     *out_analysis = publish(object);
   });
@@ -280,7 +280,7 @@ focal_status focal_detection_get_info(const focal_detection* detection, focal_de
     info.vertex_count = static_cast<uint64_t>(object->mesh->mesh->source.vertex_count());
     info.triangle_count = static_cast<uint64_t>(object->mesh->mesh->source.triangle_count());
     info.category_fit = object->detection.category_fit;
-    info.backend = object->model->context->backend;
+    info.backend = object->detection.by_backend ? FOCAL_BACKEND_CUDA : FOCAL_BACKEND_CPU;
     write_result(out_info, info);
   });
 }

@@ -21,6 +21,9 @@ file(RELATIVE_PATH FOCAL_PC_TO_PREFIX /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig 
 configure_file(${CMAKE_CURRENT_LIST_DIR}/focal.pc.in ${PROJECT_BINARY_DIR}/focal.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/focal.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 
+if(TARGET focal_cuda)
+  install(TARGETS focal_cuda LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+endif()
 if(TARGET focal_cli)
   set_target_properties(focal_cli PROPERTIES INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
   install(TARGETS focal_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})

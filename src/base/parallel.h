@@ -7,6 +7,8 @@
 
 namespace focal {
 
+class Backend;
+
 struct Execution {
   int thread_count = 0;  // 0: one a core
   Task* task = nullptr;  // may be null
@@ -14,11 +16,12 @@ struct Execution {
       true;  // false inside a body of parallel_for: cancellable, but the outer loop tells the progress
   // The host's own parallel-for, or empty: run body(i) for i in [0, count) in any order, return when all are done.
   std::function<void(int64_t count, const std::function<void(int64_t)>& body)> host_parallel_for;
+  const Backend* backend = nullptr;  // see compute/module_loader.h; null: the CPU
 
   int threads() const;
   // For the stages inside a body of parallel_for: one thread, no progress of their own.
   Execution inner() const {
-    return {.thread_count = 1, .task = task, .reports = false, .host_parallel_for = {}};
+    return {.thread_count = 1, .task = task, .reports = false, .host_parallel_for = {}, .backend = nullptr};
   }
   // Throws Error{cancelled} when the task was cancelled. Call it at least every few milliseconds of work.
   void check_cancelled() const;

@@ -104,13 +104,20 @@ void describe(const Steps& steps, const Eigenbasis& basis, double scale, std::sp
 
 }  // namespace
 
+SiHksMaps si_hks_maps(const Vector& lambda, double area) {
+  const double scale = area / reference_area;  // eigenvalues of the shape scaled to the reference area
+  SiHksMaps maps{scale, frequency_count, RowMatrix(time_count, lambda.size()), fourier_matrix(),
+                 spline_matrix()};
+  for (int k = 0; k < time_count; ++k)
+    maps.decay.row(k) = (-lambda.array() * scale * std::exp2(1 + 0.1 * k)).exp();
+  return maps;
+}
+
 RowMatrix si_hks(const Eigenbasis& basis, double area, std::span<const int32_t> vertices,
                  const Execution& execution) {
-  const double scale = area / reference_area;  // eigenvalues of the shape scaled to the reference area
-  Matrix decay(time_count, basis.lambda.size());
-  for (int k = 0; k < time_count; ++k)
-    decay.row(k) = (-basis.lambda.array() * scale * std::exp2(1 + 0.1 * k)).exp();
-  const Steps steps{Product(decay), Product(fourier_matrix()), Product(spline_matrix())};
+  const SiHksMaps maps = si_hks_maps(basis.lambda, area);
+  const double scale = maps.scale;
+  const Steps steps{Product(maps.decay), Product(maps.fourier), Product(maps.spline)};
   RowMatrix result(vertices.size(), si_hks_dimension);
   parallel_for_ranges(execution, result.rows(), lanes, [&](int64_t begin, int64_t end) {
     describe(steps, basis, scale, vertices.subspan(begin, end - begin), &result(begin, 0));

@@ -17,4 +17,15 @@ inline constexpr int32_t si_hks_dimension = 96;
 RowMatrix si_hks(const Eigenbasis& basis, double area, std::span<const int32_t> vertices,
                  const Execution& execution = Execution().inner());
 
+// The same as three linear maps between a logarithm's differences and magnitudes, for whoever computes them elsewhere: of the
+// squared eigenfunctions times `scale`.
+struct SiHksMaps {
+  double scale;
+  int32_t frequencies;
+  RowMatrix decay;    // times x eigenpairs
+  RowMatrix fourier;  // 2 frequencies x (times - 1), real parts first
+  RowMatrix spline;   // si_hks_dimension x frequencies
+};
+SiHksMaps si_hks_maps(const Vector& lambda, double area);
+
 }  // namespace focal

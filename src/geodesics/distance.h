@@ -42,19 +42,18 @@ class Distance {
   // The analysis of L's pattern where one was made, for other factors of the same surface; else null.
   virtual std::shared_ptr<const SymbolicFactor> symbolic() const { return nullptr; }
 
- protected:
   struct Source {
     int32_t vertex[3];
     double weight[3];
     float corner_distance = 0;  // weighted mean of the corners' distances from the source
     int32_t triangle = -1;      // -1: the source is vertex[0]
   };
-
-  Distance() = default;
-  explicit Distance(const TriangleMesh& mesh) : positions_(mesh.positions), triangles_(mesh.triangles) {}
-
   // The distances from 1 to 32 sources; out holds vertex_count() * lanes numbers, lanes without a source count for nothing.
   virtual void solve_block(std::span<const Source> sources, float* out, const Execution& execution) const = 0;
+
+ protected:
+  Distance() = default;
+  explicit Distance(const TriangleMesh& mesh) : positions_(mesh.positions), triangles_(mesh.triangles) {}
 
   double distance_bound_ = 0;
   MatrixX3 positions_;

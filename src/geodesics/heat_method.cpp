@@ -76,8 +76,9 @@ HeatMethod::HeatMethod(const TriangleMesh& mesh, const Operators& operators, con
   const auto symbolic = std::make_shared<const SymbolicFactor>(analyse_pattern(operators.L, {}, execution));
   parallel_for(execution, 2, [&](int64_t part) {
     if (part == 0) {
-      choose_time(mesh, operators, time_factor);
-      heat_ = SparseCholesky(plus_diagonal(time_ * operators.L, operators.mass), symbolic, execution);
+      time_ = heat_time(mesh, operators, time_factor);
+      distance_bound_ = time_.distance_bound;
+      heat_ = SparseCholesky(plus_diagonal(time_.t * operators.L, operators.mass), symbolic, execution);
     } else {  // The shift makes L definite. The constant mode is amplified by its inverse: 1e-6 leaves the float solve
       // five digits.
       poisson_ = SparseCholesky(plus_diagonal(operators.L, 1e-6 / operators.area * operators.mass), symbolic,
@@ -88,12 +89,10 @@ HeatMethod::HeatMethod(const TriangleMesh& mesh, const Operators& operators, con
   sort_faces(operators);
 }
 
-void HeatMethod::choose_time(const TriangleMesh& mesh, const Operators& operators, double time_factor) {
+HeatTime heat_time(const TriangleMesh& mesh, const Operators& operators, double time_factor) {
   const double step = std::sqrt(time_factor) * operators.mean_edge;
-  distance_bound_ = diameter_bound(mesh, operators.L);
-  const double smallest = distance_bound_ / representable_decay;
-  time_was_raised_ = smallest > step;
-  time_ = std::pow(std::max(step, smallest), 2);
+  const double bound = diameter_bound(mesh, operators.L), smallest = bound / representable_decay;
+  return {std::pow(std::max(step, smallest), 2), bound, smallest > step};
 }
 
 void HeatMethod::sort_faces(const Operators& operators) {
@@ -157,10 +156,6 @@ void HeatMethod::solve_block(std::span<const Source> sources, float* out, const 
     for (int j = 0; j < lanes; ++j)
       out[static_cast<size_t>(v) * lanes + j] = std::max(from[j] - zero[j], 0.0f);
   }
-}
-
-const char* HeatMethod::warning() const {
-  return time_was_raised_ ? "the mesh is so fine that the time step of the heat method was raised" : nullptr;
 }
 
 DistanceKind heat_distance() {

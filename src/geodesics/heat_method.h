@@ -4,29 +4,38 @@
 
 namespace focal {
 
+// t = time_factor * mean edge length squared, raised on meshes so large that heat would underflow at the far end.
+struct HeatTime {
+  double t, distance_bound;  // see Distance
+  bool raised;
+  // A sentence on it where it was raised, else null.
+  const char* warning() const {
+    return raised ? "the mesh is so fine that the time step of the heat method was raised" : nullptr;
+  }
+};
+HeatTime heat_time(const TriangleMesh& mesh, const Operators& operators, double time_factor = 1);
+
 // Two factors, made once.
 class HeatMethod final : public Distance {
  public:
   HeatMethod() = default;
-  // t = time_factor * mean edge length squared, raised on meshes so large that heat would underflow at the far end.
   // execution is asked for cancellation between the factors. keep_negative_heat: obtuse triangles can make far heat
   // slightly negative; its gradient counts like any other (the method to the letter) or not at all, which measured
   // better (lion set, 18 % of such weights: 10 instead of 16 % of the diameter off the exact distance).
   HeatMethod(const TriangleMesh& mesh, const Operators& operators, const Execution& execution = {},
              double time_factor = 1, bool keep_negative_heat = false);
 
-  double time() const { return time_; }
-  bool time_was_raised() const { return time_was_raised_; }
-  const char* warning() const override;
+  double time() const { return time_.t; }
+  bool time_was_raised() const { return time_.raised; }
+  const char* warning() const override { return time_.warning(); }
   std::shared_ptr<const SymbolicFactor> symbolic() const override { return heat_.symbolic(); }
-
- private:
-  void choose_time(const TriangleMesh& mesh, const Operators& operators, double time_factor);
-  void sort_faces(const Operators& operators);
   void solve_block(std::span<const Source> sources, float* out, const Execution& execution) const override;
 
-  double time_ = 0;
-  bool time_was_raised_ = false, keep_negative_heat_ = false;
+ private:
+  void sort_faces(const Operators& operators);
+
+  HeatTime time_{};
+  bool keep_negative_heat_ = false;
   SparseCholesky heat_, poisson_;
   MatrixX3i faces_;              // sorted, with permuted corners, for memory locality
   RowMatrixf face_coefficient_;  // per face: half cotangents of its corners, area

@@ -4,6 +4,8 @@
 
 #include "base/error.h"
 #include "base/stopwatch.h"
+#include "compute/module_loader.h"
+#include "landmarks/backend_surface.h"
 #include "landmarks/confidence.h"
 #include "landmarks/model_parts.h"
 #include "landmarks/paper.h"
@@ -100,6 +102,29 @@ bool suits(const AnalysisParams& made, const AnalysisParams& wanted) {
          made.distance == wanted.distance;
 }
 
+// What is kept beyond the call takes no memory of the GPU, and cannot fail by it.
+void leave_backend(SurfaceAnalysis& analysis) {
+  if (analysis.on_backend) analysis.on_backend->close();
+  analysis.on_backend = nullptr;
+}
+
+Detection detect_afresh(const std::shared_ptr<const LandmarkModel>& model,
+                        const std::shared_ptr<const PreparedMesh>& mesh, const DetectParams& params,
+                        const Execution& execution) {
+  execution.begin_stage("analysis", 0, 0.4);
+  auto analysis = std::make_shared<SurfaceAnalysis>(analyse_for(model->params, mesh, params, execution));
+  Detection result = detect(model, *analysis, params, execution);
+  result.seconds.proxy = analysis->proxy_seconds;
+  result.seconds.spectrum = analysis->spectrum_seconds;
+  result.seconds.descriptors += analysis->descriptor_seconds;
+  result.seconds.geodesics += analysis->geodesic_seconds;
+  result.by_backend = analysis->on_backend != nullptr;
+  leave_backend(*analysis);
+  analysis->distances = {};
+  result.analysis = std::move(analysis);
+  return result;
+}
+
 }  // namespace
 
 void check_suits(const SurfaceAnalysis& analysis, const LandmarkModel& model) {
@@ -130,19 +155,26 @@ SurfaceAnalysis analyse_for(const TrainParams& trained, std::shared_ptr<const Pr
   return analyse_surface(std::move(mesh), how, execution);
 }
 
+SurfaceAnalysis analyse_to_keep(const TrainParams& trained, std::shared_ptr<const PreparedMesh> mesh,
+                                const DetectParams& params, const Execution& execution, std::string& note) {
+  SurfaceAnalysis result;
+  note = with_fallback(execution, [&](const Execution& how) {
+    how.begin_stage("analysis", 0, 0.8);
+    result = analyse_for(trained, mesh, params, how);
+    how.begin_stage("distances", 0.8, 1);
+    keep_distances(result, how);
+  });
+  leave_backend(result);
+  return result;
+}
+
 Detection detect(std::shared_ptr<const LandmarkModel> model, std::shared_ptr<const PreparedMesh> mesh,
                  const DetectParams& params, const Execution& execution) {
   Stopwatch whole;
-  execution.begin_stage("analysis", 0, 0.4);
-  auto analysis =
-      std::make_shared<SurfaceAnalysis>(analyse_for(model->params, std::move(mesh), params, execution));
-  Detection result = detect(std::move(model), *analysis, params, execution);
-  result.seconds.proxy = analysis->proxy_seconds;
-  result.seconds.spectrum = analysis->spectrum_seconds;
-  result.seconds.descriptors += analysis->descriptor_seconds;
-  result.seconds.geodesics += analysis->geodesic_seconds;
-  analysis->distances = {};
-  result.analysis = std::move(analysis);
+  Detection result;
+  const std::string note = with_fallback(
+      execution, [&](const Execution& how) { result = detect_afresh(model, mesh, params, how); });
+  if (!note.empty()) result.warnings.push_back(note);
   result.seconds.total = whole.lap();
   return result;
 }

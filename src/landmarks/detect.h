@@ -47,6 +47,7 @@ struct Detection {
   RowMatrixf votes;  // landmarks x vertices of proxy.coarse->surface, each row's largest is 1; may be empty
   double category_fit = 0;            // 0..1
   std::vector<std::string> warnings;  // beside those of the mesh
+  bool by_backend = false;            // the execution's backend did the heavy stages
   StageSeconds seconds;
 };
 
@@ -63,6 +64,10 @@ void check_suits(const SurfaceAnalysis& analysis, const LandmarkModel& model);
 // For many models on one mesh: the analysis is made once, by parameters that suit them all (see check_suits).
 SurfaceAnalysis analyse_for(const TrainParams& trained, std::shared_ptr<const PreparedMesh> mesh,
                             const DetectParams& params, const Execution& execution);
+// The same with the distances of all samples, where they are small (see keep_distances), and nothing left on a GPU. note: a
+// sentence where a GPU failed, else empty.
+SurfaceAnalysis analyse_to_keep(const TrainParams& trained, std::shared_ptr<const PreparedMesh> mesh,
+                                const DetectParams& params, const Execution& execution, std::string& note);
 Detection detect(std::shared_ptr<const LandmarkModel> model, const SurfaceAnalysis& analysis,
                  const DetectParams& params, const Execution& execution);
 

@@ -1,7 +1,6 @@
 #include "landmarks/leaf_votes.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -17,20 +16,10 @@ constexpr double smoothing =
 constexpr double mu = 5;  // Xia et al. 2016, Section 5
 constexpr int half = 8;   // of the kernel's entries: 4 standard deviations
 
-// Entry i: at i + 1/2 bins from the centre of a bin, where the table has its rows.
-std::array<float, half> gaussian_kernel() {
-  std::array<float, half> kernel;
-  for (int i = 0; i < half; ++i)
-    kernel[i] = static_cast<float>(std::exp(-0.5 * std::pow((i + 0.5) * bin_width / smoothing, 2)) *
-                                   bin_width / (smoothing * std::sqrt(2 * std::numbers::pi)));
-  return kernel;
-}
-
 // Rows of a table from the rows of a histogram, which begins `half` rows early and ends as many late.
 struct Smoothing {
   const float* histogram;
-  const float* decay;
-  std::array<float, half> kernel;
+  const float *decay, *kernel;
   int64_t rows, stride;
 };
 
@@ -50,22 +39,33 @@ FOCAL_MULTIVERSION(void smooth(const Smoothing& s, float* table), smooth_body(s,
 
 }  // namespace
 
+LeafVoteShape leaf_vote_shape(const LandmarkModel& model) {
+  LeafVoteShape shape{static_cast<int32_t>(model.reach / bin_width) + 2,
+                      bin_width,
+                      model.reach / target_steps / static_cast<float>(bin_width),
+                      {},
+                      {}};
+  for (int i = 0; i < half; ++i)
+    shape.kernel.push_back(
+        static_cast<float>(std::exp(-0.5 * std::pow((i + 0.5) * bin_width / smoothing, 2)) * bin_width /
+                           (smoothing * std::sqrt(2 * std::numbers::pi))));
+  for (int32_t r = 0; r <= shape.bins; ++r)
+    shape.decay.push_back(static_cast<float>(std::exp(-mu * std::pow(r * bin_width, 2))));
+  return shape;
+}
+
 LeafVotes::LeafVotes(const LandmarkModel& model, const Eigen::Ref<const RowMatrixf>& descriptors,
                      const Execution& execution)
     : model_(model),
-      bins_(static_cast<int32_t>(model.reach / bin_width) + 2),
+      shape_(leaf_vote_shape(model)),
       stride_(VoteTables::padded(static_cast<int32_t>(model.targets.cols()))),
-      target_bin_(static_cast<size_t>(model.targets.rows()) * stride_, static_cast<uint16_t>(bins_)),
-      decay_(bins_ + 1) {
-  for (int32_t r = 0; r <= bins_; ++r)
-    decay_[r] = static_cast<float>(std::exp(-mu * std::pow(r * bin_width, 2)));
-  const float to_bin = model.reach / target_steps / static_cast<float>(bin_width);
+      target_bin_(static_cast<size_t>(model.targets.rows()) * stride_, static_cast<uint16_t>(shape_.bins)) {
   parallel_for_ranges(execution, model.targets.rows(), 4096, [&](int64_t begin, int64_t end) {
     for (int64_t s = begin; s < end; ++s)
       for (Eigen::Index l = 0; l < model.targets.cols(); ++l)
         if (const uint16_t target = model.targets(s, l); target != target_missing)
-          target_bin_[s * stride_ + l] = static_cast<uint16_t>(
-              std::min(static_cast<int32_t>(static_cast<float>(target) * to_bin), bins_ - 1));
+          target_bin_[s * stride_ + l] = static_cast<uint16_t>(std::min(
+              static_cast<int32_t>(static_cast<float>(target) * shape_.target_to_bin), shape_.bins - 1));
   });
   const auto& trees = model.forests[0].trees;
   leaf_.resize(descriptors.rows(), static_cast<Eigen::Index>(trees.size()));
@@ -90,19 +90,21 @@ void LeafVotes::add_histogram(int32_t sample, float* histogram) const {
 }
 
 VoteTables LeafVotes::tables(int32_t first, int32_t count, const Execution& execution) const {
+  const int32_t bin_count = shape_.bins;
   VoteTables tables;
   tables.width = bin_width;
-  tables.rows = bins_ + 1;  // at the edges of the bins
+  tables.rows = bin_count + 1;  // at the edges of the bins
   tables.landmarks = static_cast<int32_t>(model_.targets.cols());
   tables.weight.resize(static_cast<size_t>(count) * tables.rows * stride_);
   parallel_for_ranges(execution, count, 8, [&](int64_t begin, int64_t end) {
-    std::vector<float> histogram(static_cast<size_t>(bins_ + 1 + 2 * half) * stride_);
+    std::vector<float> histogram(static_cast<size_t>(bin_count + 1 + 2 * half) * stride_);
     float* bins = histogram.data() + half * stride_;
-    const Smoothing how{histogram.data(), decay_.data(), gaussian_kernel(), tables.rows, stride_};
+    const Smoothing how{histogram.data(), shape_.decay.data(), shape_.kernel.data(), tables.rows, stride_};
     for (int64_t s = begin; s < end; ++s) {
       std::fill(histogram.begin(), histogram.end(), 0.0f);
       add_histogram(first + static_cast<int32_t>(s), bins);
-      std::fill_n(bins + static_cast<int64_t>(bins_) * stride_, stride_, 0.0f);  // what is missing has no say
+      std::fill_n(bins + static_cast<int64_t>(bin_count) * stride_, stride_,
+                  0.0f);  // what is missing has no say
       smooth(how, tables.of(s));
     }
   });

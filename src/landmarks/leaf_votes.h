@@ -8,6 +8,17 @@
 
 namespace focal {
 
+// What tables are made with: distances are counted in bins, and the counts smoothed.
+struct LeafVoteShape {
+  int32_t bins;  // of a histogram of the distances to a landmark
+  double bin_width;
+  float target_to_bin;
+  std::vector<float>
+      kernel;  // entry i: at i + 1/2 bins from the centre of a bin, where the table has its rows
+  std::vector<float> decay;  // exp(-mu d^2) at the rows of a table
+};
+LeafVoteShape leaf_vote_shape(const LandmarkModel& model);
+
 // For each sample the distribution of the distances to every landmark that its leaves remember, smoothed, weighted by
 // exp(-mu d^2). Distances in sqrt(area). What all samples share is kept, so tables can be made some samples at a time.
 class LeafVotes {
@@ -22,10 +33,10 @@ class LeafVotes {
   void add_histogram(int32_t sample, float* histogram) const;
 
   const LandmarkModel& model_;
-  int32_t bins_, stride_;
-  std::vector<uint16_t> target_bin_;  // training samples x stride_; bins_ where there is none
+  LeafVoteShape shape_;
+  int32_t stride_;
+  std::vector<uint16_t> target_bin_;  // training samples x stride_; shape_.bins where there is none
   Eigen::Matrix<int32_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> leaf_;  // samples x trees
-  std::vector<float> decay_;  // exp(-mu d^2) at the rows of a table
 };
 
 }  // namespace focal

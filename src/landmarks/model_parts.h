@@ -1,5 +1,6 @@
 // The contents of a model. See landmark_model.h for what a caller needs to know of it.
 #pragma once
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -39,7 +40,7 @@ struct AtlasShape {
   std::optional<ShapeRig> rig;
 };
 
-struct LandmarkModel {
+struct LandmarkModel : std::enable_shared_from_this<LandmarkModel> {
   std::vector<std::string> landmark_names;
   TrainParams params;
   int32_t shape_count = 0;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/stopwatch.h"
+#include "landmarks/backend_surface.h"
 #include "landmarks/consensus.h"
 #include "landmarks/leaf_votes.h"
 #include "landmarks/refine.h"
@@ -29,6 +30,12 @@ RowMatrixf cast_votes(const LandmarkModel& model, const SurfaceAnalysis& analysi
   const auto L = static_cast<int32_t>(model.landmark_names.size());
   RowMatrixf votes = RowMatrixf::Zero(analysis.metric->vertex_count(), VoteTables::padded(L));
   Stopwatch watch;
+  if (analysis.on_backend) {
+    votes = analysis.on_backend->votes(model, std::span(analysis.samples).first(count),
+                                       analysis.descriptors.topRows(count));
+    seconds.vote += watch.lap();  // forest, distances and votes in one
+    return votes.leftCols(L);
+  }
   const LeafVotes leaf_votes(model, analysis.descriptors.topRows(count), execution);
   seconds.forest += watch.lap();
   for_each_portion(

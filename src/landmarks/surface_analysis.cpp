@@ -6,6 +6,7 @@
 #include "base/random.h"
 #include "base/stopwatch.h"
 #include "descriptors/descriptor.h"
+#include "landmarks/backend_surface.h"
 #include "spectrum/eigenbasis.h"
 
 namespace focal {
@@ -41,6 +42,45 @@ SampleDistances compute_distances(const SurfaceAnalysis& analysis, int32_t first
   return result;
 }
 
+// What a GPU does with dense matrices: more vertices would take too much memory, and very few too little time to be worth it.
+constexpr int32_t fewest_vertices = 512, most_vertices = 12500;
+
+EigenParams eigen_params(const AnalysisParams& params) {
+  EigenParams eigen;
+  eigen.count = params.eigenpair_count;
+  eigen.method = EigenMethod::chebyshev;
+  eigen.tolerance =
+      1e-7;  // 1e-5 serves the signatures; maps turn what is left of the error into whole vertices
+  return eigen;
+}
+
+void make_surface_operators(SurfaceAnalysis& analysis, const Execution& execution) {
+  analysis.operators =
+      make_operators(analysis.surface(), analysis.proxy.coarse->bridges, !analysis.params.to_the_letter);
+  execution.check_cancelled();
+}
+
+// Operators and metric on the GPU, where it suits.
+bool make_backend_solvers(SurfaceAnalysis& analysis, const Execution& execution) {
+  const int32_t n = analysis.surface().vertex_count();
+  if (!execution.backend || analysis.params.distance != 0 || n < fewest_vertices || n > most_vertices ||
+      n < 3 * analysis.params.eigenpair_count)
+    return false;
+  make_surface_operators(analysis, execution);
+  const auto metric = std::make_shared<BackendDistance>(analysis.proxy.coarse, analysis.operators,
+                                                        analysis.params.to_the_letter, *execution.backend);
+  analysis.metric = metric, analysis.on_backend = metric->surface();
+  return true;
+}
+
+RowMatrixf describe(const SurfaceAnalysis& analysis, const Eigenbasis& basis, const Execution& execution) {
+  if (analysis.on_backend && analysis.params.descriptor == 0)
+    return analysis.on_backend->si_hks(basis.lambda, analysis.operators.area, analysis.samples);
+  return descriptor_kinds()[analysis.params.descriptor]
+      .describe({analysis.surface(), analysis.operators, basis}, analysis.samples, execution)
+      .cast<float>();
+}
+
 }  // namespace
 
 AnalysisParams analysis_params_of(const TrainParams& trained) {
@@ -60,34 +100,29 @@ SurfaceAnalysis analyse_surface(std::shared_ptr<const PreparedMesh> mesh, const 
   result.proxy = make_proxy(std::move(mesh), params.proxy_vertices, execution, !params.to_the_letter);
   result.proxy_seconds = watch.lap();
   execution.check_cancelled();
-  make_solvers(result, execution);
+  if (!make_backend_solvers(result, execution)) make_solvers(result, execution);
   result.geodesic_seconds = watch.lap();
   execution.check_cancelled();
-  EigenParams eigen;
-  eigen.count = params.eigenpair_count;
-  eigen.method = EigenMethod::chebyshev;
-  eigen.tolerance =
-      1e-7;  // 1e-5 serves the signatures; maps turn what is left of the error into whole vertices
-  const Eigenbasis basis =
-      eigenbasis(result.operators.L, result.operators.mass, eigen, execution, result.metric->symbolic());
+  const EigenParams eigen = eigen_params(params);
+  const Eigenbasis basis = result.on_backend ? result.on_backend->spectrum(eigen)
+                                             : eigenbasis(result.operators.L, result.operators.mass, eigen,
+                                                          execution, result.metric->symbolic());
+  execution.check_cancelled();
   result.eigenfunctions = basis.Phi.cast<float>();
   result.spectrum_seconds = watch.lap();
   Random random(params.seed, params.stream);
   const int32_t n = result.surface().vertex_count(), count = sample_count(n, params);
   result.samples = sample_without_replacement(random, n, count);
-  result.descriptors = descriptor_kinds()[params.descriptor]
-                           .describe({result.surface(), result.operators, basis}, result.samples, execution)
-                           .cast<float>();
+  result.descriptors = describe(result, basis, execution);
   result.descriptor_seconds = watch.lap();
   return result;
 }
 
 void make_solvers(SurfaceAnalysis& analysis, const Execution& execution) {
-  const bool to_the_letter = analysis.params.to_the_letter;
-  analysis.operators = make_operators(analysis.surface(), analysis.proxy.coarse->bridges, !to_the_letter);
-  execution.check_cancelled();
+  make_surface_operators(analysis, execution);
   analysis.metric = distance_kinds()[analysis.params.distance].make(
-      {analysis.surface(), analysis.proxy.coarse->bridges, analysis.operators, to_the_letter}, execution);
+      {analysis.surface(), analysis.proxy.coarse->bridges, analysis.operators, analysis.params.to_the_letter},
+      execution);
 }
 
 void keep_distances(SurfaceAnalysis& analysis, const Execution& execution) {

@@ -36,11 +36,14 @@ struct SampleDistances {
   std::vector<uint16_t> steps;
 };
 
+class BackendSurface;
+
 struct SurfaceAnalysis {
   AnalysisParams params;
   Proxy proxy;
   Operators operators;  // of surface(), like all below
   std::shared_ptr<const Distance> metric;
+  std::shared_ptr<BackendSurface> on_backend;  // while a GPU works on it; closed before it is handed out
   std::vector<int32_t> samples;  // vertices, in random order: any beginning is a random sample too
   RowMatrixf descriptors;        // samples x components
   RowMatrixf eigenfunctions;     // vertices x eigenpairs
@@ -50,6 +53,7 @@ struct SurfaceAnalysis {
   const TriangleMesh& surface() const { return proxy.coarse->surface; }
 };
 
+// By the backend of the execution where there is one and it can do all that is asked; throws BackendFailure.
 SurfaceAnalysis analyse_surface(std::shared_ptr<const PreparedMesh> mesh, const AnalysisParams& params,
                                 const Execution& execution);
 

@@ -11,17 +11,16 @@
 namespace focal {
 namespace {
 
-// Eigenvectors have no sign of their own: make the entry of largest magnitude positive.
+// A tenth of Weyl's law, lambda_k = 4 pi k / area, for the last wanted pair.
+double eigenvalue_scale(double area, int32_t count) { return 0.4 * std::numbers::pi * count / area; }
+
+}  // namespace
+
 void fix_sign(Eigen::Ref<Vector> phi) {
   Eigen::Index largest;
   phi.cwiseAbs().maxCoeff(&largest);
   if (phi(largest) < 0) phi = -phi;
 }
-
-// A tenth of Weyl's law, lambda_k = 4 pi k / area, for the last wanted pair.
-double eigenvalue_scale(double area, int32_t count) { return 0.4 * std::numbers::pi * count / area; }
-
-}  // namespace
 
 Eigenbasis dense_eigenpairs(const StandardProblem& problem) {
   const Eigen::SelfAdjointEigenSolver<Matrix> solver{Matrix(problem.A)};

@@ -30,4 +30,7 @@ struct EigenParams {
 Eigenbasis eigenbasis(const SparseMatrix& L, const Vector& mass, const EigenParams& params,
                       const Execution& execution, std::shared_ptr<const SymbolicFactor> symbolic = nullptr);
 
+// Eigenvectors have no sign of their own: makes the entry of largest magnitude positive.
+void fix_sign(Eigen::Ref<Vector> phi);
+
 }  // namespace focal

@@ -86,7 +86,8 @@ static void need(int good, const functions* f) {
 /* A model and a detection, in a context of two threads; a failing call besides. */
 static void work(const functions* f) {
   static const char* const names[] = {"a", "b", "c"};
-  focal_context_params params = {.struct_size = sizeof params, .thread_count = 2};
+  focal_context_params params = {
+      .struct_size = sizeof params, .backend = FOCAL_BACKEND_CPU, .thread_count = 2};
   focal_train_params training;
   const focal_mesh_desc desc = {.struct_size = sizeof desc,
                                 .positions = body.positions,

@@ -54,7 +54,8 @@ class Landmarks(Case):
     def test_it_tells(self):
         found = detection()
         self.assertEqual((found.info["vertex_count"], found.info["triangle_count"]), (514, 1024))
-        self.assertEqual((found.info["has_votes"], found.info["backend"]), (1, focal.Backend.CPU))
+        self.assertEqual(found.info["has_votes"], 1)
+        self.assertIn(found.info["backend"], (focal.Backend.CPU, focal.Backend.CUDA))  # where a GPU is
         self.assertTrue(0 <= found.category_fit <= 1)
         self.assertGreater(found.seconds["total"], 0)
         self.assertEqual(len(found.warnings), found.info["warning_count"])

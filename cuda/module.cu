@@ -1,0 +1,8 @@
+// The module's one exported function.
+#include "compute/device/table.h"
+#include "queue.h"
+
+extern "C" __attribute__((visibility("default"))) const focal::ComputeTable* focal_compute_entry(
+    uint32_t version) {
+  return version == focal::compute_version ? focal::TableOf<focal::CudaQueue>::table() : nullptr;
+}

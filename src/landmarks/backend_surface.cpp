@@ -1,0 +1,169 @@
+#include "landmarks/backend_surface.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "compute/module_loader.h"
+#include "descriptors/si_hks.h"
+#include "geodesics/heat_method.h"
+#include "landmarks/leaf_votes.h"
+
+namespace focal {
+namespace {
+
+// Of the forest's trees one after the other.
+struct FlatForest {
+  std::vector<int32_t> node_start = {0}, leaf_start_start = {0}, leaf_sample_start = {0};
+  std::vector<int32_t> feature, child, leaf_start, leaf_sample;
+  std::vector<float> threshold;
+};
+
+template <class T>
+void append(std::vector<T>& to, const std::vector<T>& from, std::vector<int32_t>* start = nullptr) {
+  to.insert(to.end(), from.begin(), from.end());
+  if (start) start->push_back(static_cast<int32_t>(to.size()));
+}
+
+FlatForest flat(const RegressionForest& forest) {
+  FlatForest result;
+  for (const RegressionTree& tree : forest.trees) {
+    append(result.feature, tree.feature, &result.node_start);
+    append(result.child, tree.child), append(result.threshold, tree.threshold);
+    append(result.leaf_start, tree.leaf_start, &result.leaf_start_start);
+    append(result.leaf_sample, tree.leaf_samples, &result.leaf_sample_start);
+  }
+  return result;
+}
+
+std::shared_ptr<void> upload_forest(const Backend& backend, const LandmarkModel& model, int32_t components) {
+  const FlatForest forest = flat(model.forests[0]);
+  const LeafVoteShape shape = leaf_vote_shape(model);
+  ComputeForest data{};
+  data.trees = static_cast<int32_t>(model.forests[0].trees.size());
+  data.landmarks = static_cast<int32_t>(model.targets.cols());
+  data.components = components;
+  data.node_start = forest.node_start.data(), data.leaf_start_start = forest.leaf_start_start.data();
+  data.leaf_sample_start = forest.leaf_sample_start.data();
+  data.feature = forest.feature.data(), data.child = forest.child.data();
+  data.threshold = forest.threshold.data();
+  data.leaf_start = forest.leaf_start.data(), data.leaf_sample = forest.leaf_sample.data();
+  data.training_samples = model.targets.rows(), data.target = model.targets.data();
+  data.bins = shape.bins, data.target_to_bin = shape.target_to_bin, data.bin_width = shape.bin_width;
+  data.kernel_half = static_cast<int32_t>(shape.kernel.size()), data.kernel = shape.kernel.data();
+  data.decay = shape.decay.data();
+  void* made = nullptr;
+  backend.call(backend.table().forest_create, backend.device(), &data, &made);
+  return {made, backend.table().forest_destroy};
+}
+
+}  // namespace
+
+BackendSurface::BackendSurface(const Backend& backend, const Operators& operators, double heat_time,
+                               bool keep_negative_heat)
+    : backend_(backend), vertices_(static_cast<int32_t>(operators.L.rows())) {
+  RowMatrixf coefficient(operators.triangles.rows(), 4);
+  coefficient << operators.half_cotangent.cast<float>(), operators.face_area.cast<float>();
+  ComputeSurface data{};
+  data.vertices = vertices_, data.faces = static_cast<int32_t>(operators.triangles.rows());
+  data.column_start = operators.L.outerIndexPtr(), data.row = operators.L.innerIndexPtr();
+  data.value = operators.L.valuePtr(), data.mass = operators.mass.data();
+  data.corner = operators.triangles.data(), data.coefficient = coefficient.data();
+  data.area = operators.area, data.heat_time = heat_time, data.keep_negative_heat = keep_negative_heat;
+  backend_.call(backend_.table().surface_create, backend_.device(), &data, &surface_);
+}
+
+void BackendSurface::close() {
+  const std::scoped_lock lock(mutex_);
+  if (surface_) backend_.table().surface_destroy(surface_);
+  surface_ = nullptr;
+}
+
+bool BackendSurface::is_open() const {
+  const std::scoped_lock lock(mutex_);
+  return surface_ != nullptr;
+}
+
+Eigenbasis BackendSurface::spectrum(const EigenParams& params) const {
+  const std::scoped_lock lock(mutex_);
+  Eigenbasis basis{Vector(params.count), {}};
+  RowMatrix phi(vertices_, params.count);
+  backend_.call(backend_.table().spectrum, surface_, params.count, params.tolerance, basis.lambda.data(),
+                phi.data());
+  basis.Phi = phi;
+  for (int32_t j = 0; j < params.count; ++j) fix_sign(basis.Phi.col(j));
+  return basis;
+}
+
+RowMatrixf BackendSurface::si_hks(const Vector& lambda, double area,
+                                  std::span<const int32_t> vertices) const {
+  const std::scoped_lock lock(mutex_);
+  const SiHksMaps maps = si_hks_maps(lambda, area);
+  const ComputeSignature signature{static_cast<int32_t>(maps.decay.rows()),
+                                   maps.frequencies,
+                                   si_hks_dimension,
+                                   maps.scale,
+                                   maps.decay.data(),
+                                   maps.fourier.data(),
+                                   maps.spline.data()};
+  RowMatrixf result(vertices.size(), si_hks_dimension);
+  backend_.call(backend_.table().signatures, surface_, &signature, vertices.data(),
+                static_cast<int32_t>(vertices.size()), result.data());
+  return result;
+}
+
+void BackendSurface::distances(std::span<const Distance::Source> sources, float* out) const {
+  const std::scoped_lock lock(mutex_);
+  std::vector<ComputeSource> data;
+  for (const auto& source : sources) {
+    ComputeSource to{};
+    std::copy_n(source.vertex, 3, to.vertex), std::copy_n(source.weight, 3, to.weight);
+    to.corner_distance = source.corner_distance;
+    data.push_back(to);
+  }
+  backend_.call(backend_.table().distances, surface_, data.data(), static_cast<int32_t>(data.size()), out);
+}
+
+RowMatrixf BackendSurface::votes(const LandmarkModel& model, std::span<const int32_t> samples,
+                                 const Eigen::Ref<const RowMatrixf>& descriptors) const {
+  const std::scoped_lock lock(mutex_);
+  const auto components = static_cast<int32_t>(descriptors.cols());
+  const auto forest =
+      backend_.kept(model.weak_from_this(), [&] { return upload_forest(backend_, model, components); });
+  RowMatrixf result(vertices_, VoteTables::padded(static_cast<int32_t>(model.targets.cols())));
+  backend_.call(backend_.table().votes, surface_, forest.get(), samples.data(), descriptors.data(),
+                static_cast<int32_t>(samples.size()), static_cast<int32_t>(result.cols()), result.data());
+  return result;
+}
+
+std::vector<ComputeStage> BackendSurface::stages() const {
+  const std::scoped_lock lock(mutex_);
+  std::vector<ComputeStage> stages(64);
+  stages.resize(static_cast<size_t>(backend_.table().stages(surface_, stages.data(), 64)));
+  return stages;
+}
+
+BackendDistance::BackendDistance(std::shared_ptr<const PreparedMesh> mesh, const Operators& operators,
+                                 bool keep_negative_heat, const Backend& backend)
+    : Distance(mesh->surface),
+      mesh_(std::move(mesh)),
+      operators_(operators),
+      keep_negative_heat_(keep_negative_heat) {
+  const HeatTime time = heat_time(mesh_->surface, operators_);
+  distance_bound_ = time.distance_bound, warning_ = time.warning();
+  surface_ = std::make_shared<BackendSurface>(backend, operators_, time.t, keep_negative_heat);
+}
+
+void BackendDistance::solve_block(std::span<const Source> sources, float* out,
+                                  const Execution& execution) const {
+  if (surface_->is_open()) {
+    Source padded[lanes];  // unused lanes repeat the last
+    for (size_t j = 0; j < lanes; ++j) padded[j] = sources[std::min(j, sources.size() - 1)];
+    return surface_->distances(padded, out);
+  }
+  std::call_once(once_, [&] {
+    on_cpu_ = std::make_unique<HeatMethod>(mesh_->surface, operators_, execution, 1, keep_negative_heat_);
+  });
+  on_cpu_->solve_block(sources, out, execution);
+}
+
+}  // namespace focal

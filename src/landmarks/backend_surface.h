@@ -1,0 +1,66 @@
+// One analysed surface on a GPU: what analysis and detection ask of it. Everything here throws BackendFailure.
+#pragma once
+#include <memory>
+#include <mutex>
+#include <span>
+#include <vector>
+
+#include "base/matrix.h"
+#include "compute/backend.h"
+#include "geodesics/distance.h"
+#include "landmarks/model_parts.h"
+#include "mesh/prepare.h"
+#include "operators/operators.h"
+#include "spectrum/eigenbasis.h"
+
+namespace focal {
+
+// Thread-safe: one call at a time. The device's memory is free again once it is closed; nothing may be asked then.
+class BackendSurface {
+ public:
+  BackendSurface(const Backend& backend, const Operators& operators, double heat_time,
+                 bool keep_negative_heat);
+  ~BackendSurface() { close(); }
+  BackendSurface(const BackendSurface&) = delete;
+
+  void close();
+  bool is_open() const;
+
+  Eigenbasis spectrum(const EigenParams& params) const;
+  // SI-HKS of some vertices, after the spectrum, whose eigenvalues these are.
+  RowMatrixf si_hks(const Vector& lambda, double area, std::span<const int32_t> vertices) const;
+  // out: vertices x sources.
+  void distances(std::span<const Distance::Source> sources, float* out) const;
+  // Votes of the samples, one row of descriptors each: vertices x VoteTables::padded(landmarks).
+  RowMatrixf votes(const LandmarkModel& model, std::span<const int32_t> samples,
+                   const Eigen::Ref<const RowMatrixf>& descriptors) const;
+  // What the device did since the last time, by its own clock; at most 64 stages.
+  std::vector<ComputeStage> stages() const;
+
+ private:
+  const Backend& backend_;
+  int32_t vertices_;
+  mutable std::mutex mutex_;
+  void* surface_ = nullptr;
+};
+
+// The heat method on the device; once the surface is closed, on the CPU, prepared when first asked.
+class BackendDistance final : public Distance {
+ public:
+  BackendDistance(std::shared_ptr<const PreparedMesh> mesh, const Operators& operators,
+                  bool keep_negative_heat, const Backend& backend);
+  const char* warning() const override { return warning_; }
+  void solve_block(std::span<const Source> sources, float* out, const Execution& execution) const override;
+  const std::shared_ptr<BackendSurface>& surface() const { return surface_; }
+
+ private:
+  std::shared_ptr<const PreparedMesh> mesh_;
+  Operators operators_;
+  bool keep_negative_heat_;
+  const char* warning_ = nullptr;
+  std::shared_ptr<BackendSurface> surface_;
+  mutable std::once_flag once_;
+  mutable std::unique_ptr<const Distance> on_cpu_;
+};
+
+}  // namespace focal
