@@ -62,6 +62,20 @@ struct ComputeForest {
   const float* decay;   // bins + 1: of a vote at the bins' edges
 };
 
+// A functional map from some points to the surface, to be refined; see spectrum/functional_map.h.
+struct ComputeMap {
+  const float*
+      eigenfunctions;  // of the surface, n x eigenpairs by rows; the same at every call for one surface
+  int32_t eigenpairs;
+  int32_t points, most;  // most: eigenfunctions of the last round
+  const float *place,
+      *weighted;           // points x most by rows: the points' eigenfunctions, and these times their weights
+  const float* whitening;  // most x most by columns: L^-1, where L L^T = place^T weighted
+  const int32_t* spread;
+  int32_t spread_count, first, step;
+  int32_t exact_from;  // points from here on lie at the nearest of all vertices in the last round
+};
+
 struct ComputeStage {
   char name[32];
   double milliseconds;  // by the device's own clock, since the report before
@@ -90,6 +104,10 @@ struct ComputeTable {
   // the landmarks is set to 0.
   int32_t (*votes)(void* surface, void* forest, const int32_t* vertex, const float* descriptor, int32_t count,
                    int32_t stride, float* out, ComputeFailure* failure);
+  // image: points, where they lie at first and at last; C: most x most by columns; error: points x 2, how far the points lie
+  // from their images in the embedding, and their size, squared.
+  int32_t (*zoom_out)(void* surface, const ComputeMap* map, int32_t* image, float* C, double* error,
+                      ComputeFailure* failure);
   // Stages of this surface since the last report; returns how many, at most `room`.
   int32_t (*stages)(void* surface, ComputeStage* out, int32_t room);
 };

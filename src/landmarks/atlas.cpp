@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "landmarks/backend_surface.h"
 #include "landmarks/embedded_surface.h"
 #include "mesh/nearest_vertex.h"
 
@@ -84,6 +85,13 @@ CarriedMarks carry(const AtlasShape& shape, const FunctionalMap& map, const Surf
   return result;
 }
 
+FunctionalMap refined(const AtlasShape& shape, const SurfaceAnalysis& analysis,
+                      const SpectralTargets& targets, std::vector<int32_t> images, const MapParams& params) {
+  return analysis.on_backend
+             ? analysis.on_backend->zoom_out(shape.samples, targets, std::move(images), params)
+             : zoom_out(shape.samples, targets, std::move(images), params);
+}
+
 // A shape and where its points start from on the new surface.
 struct Start {
   int32_t shape = 0;
@@ -93,15 +101,15 @@ struct Start {
 
 // The few whose coarse maps fit best; the maps go on from there.
 std::vector<Start> most_alike(std::vector<Start> starts, const std::vector<AtlasShape>& atlas,
-                              const SpectralTargets& targets, const CarryParams& params,
-                              const Execution& execution) {
+                              const SurfaceAnalysis& analysis, const SpectralTargets& targets,
+                              const CarryParams& params, const Execution& execution) {
   const MapParams coarse{.first = params.map.first,
                          .last = params.map.first,
                          .step = 4,
                          .exact_from = std::numeric_limits<int32_t>::max()};
   parallel_for(execution, static_cast<int64_t>(starts.size()), [&](int64_t i) {
     Start& start = starts[i];
-    FunctionalMap map = zoom_out(atlas[start.shape].samples, targets, std::move(start.images), coarse);
+    FunctionalMap map = refined(atlas[start.shape], analysis, targets, std::move(start.images), coarse);
     start.images = std::move(map.image), start.residual = map.residual;
   });
   std::stable_sort(starts.begin(), starts.end(),
@@ -160,13 +168,13 @@ std::vector<ShapeMap> map_shapes(const std::vector<AtlasShape>& atlas, float rea
     starts[s] = {static_cast<int32_t>(s), first_images(atlas[s], reach, landmark, fields, targets.spread)};
   });
   if (params.most_alike > 0 && params.most_alike < static_cast<int32_t>(starts.size()))
-    starts = most_alike(std::move(starts), atlas, targets, params, execution);
+    starts = most_alike(std::move(starts), atlas, analysis, targets, params, execution);
   std::vector<ShapeMap> result(starts.size());
   parallel_for(execution, static_cast<int64_t>(starts.size()), [&](int64_t i) {
     const AtlasShape& shape = atlas[starts[i].shape];
     MapParams map = params.map;
     map.exact_from = params.exact_points ? 0 : static_cast<int32_t>(shape.distances.rows());
-    result[i] = {starts[i].shape, zoom_out(shape.samples, targets, std::move(starts[i].images), map)};
+    result[i] = {starts[i].shape, refined(shape, analysis, targets, std::move(starts[i].images), map)};
   });
   return result;
 }

@@ -1,6 +1,8 @@
 #include "landmarks/backend_surface.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "compute/module_loader.h"
@@ -56,6 +58,13 @@ std::shared_ptr<void> upload_forest(const Backend& backend, const LandmarkModel&
   return {made, backend.table().forest_destroy};
 }
 
+// A device that errs without a word must not pass for one that works.
+template <class T>
+void require_numbers(const T* values, int64_t count) {
+  if (Eigen::Map<const Eigen::Array<T, Eigen::Dynamic, 1>>(values, count).allFinite()) return;
+  throw BackendFailure({0, "the device's results make no sense"});
+}
+
 }  // namespace
 
 BackendSurface::BackendSurface(const Backend& backend, const Operators& operators, double heat_time,
@@ -89,6 +98,7 @@ Eigenbasis BackendSurface::spectrum(const EigenParams& params) const {
   RowMatrix phi(vertices_, params.count);
   backend_.call(backend_.table().spectrum, surface_, params.count, params.tolerance, basis.lambda.data(),
                 phi.data());
+  require_numbers(basis.lambda.data(), basis.lambda.size()), require_numbers(phi.data(), phi.size());
   basis.Phi = phi;
   for (int32_t j = 0; j < params.count; ++j) fix_sign(basis.Phi.col(j));
   return basis;
@@ -108,6 +118,7 @@ RowMatrixf BackendSurface::si_hks(const Vector& lambda, double area,
   RowMatrixf result(vertices.size(), si_hks_dimension);
   backend_.call(backend_.table().signatures, surface_, &signature, vertices.data(),
                 static_cast<int32_t>(vertices.size()), result.data());
+  require_numbers(result.data(), result.size());
   return result;
 }
 
@@ -121,6 +132,7 @@ void BackendSurface::distances(std::span<const Distance::Source> sources, float*
     data.push_back(to);
   }
   backend_.call(backend_.table().distances, surface_, data.data(), static_cast<int32_t>(data.size()), out);
+  require_numbers(out, int64_t{vertices_} * static_cast<int64_t>(sources.size()));
 }
 
 RowMatrixf BackendSurface::votes(const LandmarkModel& model, std::span<const int32_t> samples,
@@ -132,7 +144,39 @@ RowMatrixf BackendSurface::votes(const LandmarkModel& model, std::span<const int
   RowMatrixf result(vertices_, VoteTables::padded(static_cast<int32_t>(model.targets.cols())));
   backend_.call(backend_.table().votes, surface_, forest.get(), samples.data(), descriptors.data(),
                 static_cast<int32_t>(samples.size()), static_cast<int32_t>(result.cols()), result.data());
+  require_numbers(result.data(), result.size());
   return result;
+}
+
+FunctionalMap BackendSurface::zoom_out(const SpectralSamples& from, const SpectralTargets& to,
+                                       std::vector<int32_t> initial, const MapParams& params) const {
+  const std::scoped_lock lock(mutex_);
+  constexpr int32_t tile = 4;  // of the CPU's kernels: rows come in fours
+  const auto points = static_cast<int32_t>(from.Phi.rows());
+  const auto most = static_cast<int32_t>(
+      std::min({Eigen::Index{params.last}, from.Phi.cols(), to.Phi.cols()}) / tile * tile);
+  const RowMatrixf place = from.Phi.leftCols(most);
+  const RowMatrixf weighted = from.weight.asDiagonal() * place;
+  const Eigen::LLT<Eigen::MatrixXf> gram(place.transpose() * weighted);
+  const Eigen::MatrixXf whitening = gram.matrixL().solve(Eigen::MatrixXf::Identity(most, most));
+  FunctionalMap map{Eigen::MatrixXf(most, most), std::move(initial)};
+  ComputeMap data{};
+  data.eigenfunctions = to.Phi.data(), data.eigenpairs = static_cast<int32_t>(to.Phi.cols());
+  data.points = points, data.most = most;
+  data.place = place.data(), data.weighted = weighted.data(), data.whitening = whitening.data();
+  data.spread = to.spread.data(), data.spread_count = static_cast<int32_t>(to.spread.size());
+  data.first = params.first, data.step = params.step;
+  data.exact_from = params.exact_from < points ? params.exact_from / tile * tile : points;
+  std::vector<double> error(2 * static_cast<size_t>(points));
+  backend_.call(backend_.table().zoom_out, surface_, &data, map.image.data(), map.C.data(), error.data());
+  require_numbers(map.C.data(), map.C.size()), require_numbers(error.data(), 2 * int64_t{points});
+  for (const int32_t image : map.image)
+    if (image < 0 || image >= vertices_) throw BackendFailure({0, "the device's results make no sense"});
+  double away = 0, size = 0;
+  for (size_t p = 0; p < map.image.size(); ++p)
+    away += from.weight[p] * error[2 * p], size += from.weight[p] * error[2 * p + 1];
+  map.residual = static_cast<float>(std::sqrt(away / size));
+  return map;
 }
 
 std::vector<ComputeStage> BackendSurface::stages() const {

@@ -12,6 +12,7 @@
 #include "mesh/prepare.h"
 #include "operators/operators.h"
 #include "spectrum/eigenbasis.h"
+#include "spectrum/functional_map.h"
 
 namespace focal {
 
@@ -34,6 +35,9 @@ class BackendSurface {
   // Votes of the samples, one row of descriptors each: vertices x VoteTables::padded(landmarks).
   RowMatrixf votes(const LandmarkModel& model, std::span<const int32_t> samples,
                    const Eigen::Ref<const RowMatrixf>& descriptors) const;
+  // As zoom_out; to.Phi must be the same at every call.
+  FunctionalMap zoom_out(const SpectralSamples& from, const SpectralTargets& to, std::vector<int32_t> initial,
+                         const MapParams& params) const;
   // What the device did since the last time, by its own clock; at most 64 stages.
   std::vector<ComputeStage> stages() const;
 

@@ -66,7 +66,8 @@ void time_detection(const Backend& backend, const std::shared_ptr<const Landmark
                     const std::shared_ptr<const PreparedMesh>& mesh, const Options& options) {
   DetectParams quick;
   quick.quality = Quality::interactive;
-  for (const auto& [name, params] : {std::pair{"best", DetectParams{}}, std::pair{"interactive", quick}}) {
+  for (const DetectParams& params : {DetectParams{}, quick}) {
+    const char* name = params.quality == Quality::best ? "best" : "interactive";
     Detection last;
     bool by_backend = true;
     const auto seconds =

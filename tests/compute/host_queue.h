@@ -13,11 +13,13 @@
 
 namespace focal_test {
 
-// Counted down at each allocation and each launch of all queues; the one that reaches 0 fails. Negative: none does.
+// Counted down at each allocation, launch and download of all queues; the one that reaches 0 fails, and a download brings no
+// numbers. Negative: none does.
 struct HostFaults {
-  std::atomic<int64_t> allocation{-1}, launch{-1};
+  std::atomic<int64_t> allocation{-1}, launch{-1}, download{-1};
   std::atomic<bool> lasting{false}, opening{false};
-  std::atomic<int64_t> allocations{0}, launches{0}, live{0};  // counted; live: bytes not yet released
+  std::atomic<int64_t> allocations{0}, launches{0}, downloads{0},
+      live{0};  // counted; live: bytes not yet released
 };
 inline HostFaults host_faults;
 
@@ -55,7 +57,9 @@ class HostQueue {
     if (bytes > 0) std::memcpy(to, from, bytes);
   }
   void download(void* to, const void* from, size_t bytes) {
+    ++host_faults.downloads;
     if (bytes > 0) std::memcpy(to, from, bytes);
+    if (host_faults.download >= 0 && --host_faults.download < 0) std::memset(to, 0xFF, bytes);
   }
 
   template <class Kernel>

@@ -51,20 +51,21 @@ class SubspaceIteration {
     const double shift = 1 / surface_.heat_time, per_wanted = static_cast<double>(m_) / count_;
     DeviceFilter filter{4 * 3.14159265358979324 * m_ / surface_.area, shift};  // Weyl's law
     queue_.launch(int64_t{n_} * m_, RandomColumns{X_.data()});
-    double residual = 1;
     int passes = 2;
-    for (int round = 0; !(residual <= tolerance); ++round) {
-      if (round == max_rounds || std::isnan(residual))
-        throw DeviceFailure{false, "the eigenvalues of the surface did not converge on the GPU"};
+    for (int round = 0; round < max_rounds; ++round) {
+      double residual = 0;
       surface_.clock.time("spectrum filter", passes * filter.degree_of_pass() * 2.0 * n_ * n_ * m_,
                           passes * filter.degree_of_pass() * (8.0 * n_ * n_ + 24.0 * n_ * m_),
                           [&] { filter_columns(filter, passes); });
       surface_.clock.time("spectrum Ritz", 4.0 * n_ * m_ * m_ * 2 + 9.0 * m_ * m_ * m_, 64.0 * n_ * m_,
                           [&] { residual = rayleigh_ritz(tolerance); });
+      if (residual <= tolerance) return;
+      if (std::isnan(residual)) break;
       const double wanted = lambda_[static_cast<size_t>(count_) - 1];
       filter.last = std::max(std::min(lambda_.back(), 1.05 * per_wanted * wanted), 0.01 * shift);
       passes = filter.passes_for(5 * residual / tolerance, wanted);
     }
+    throw DeviceFailure{false, "the eigenvalues of the surface did not converge on the GPU"};
   }
 
   void finish(double* lambda, double* phi) {

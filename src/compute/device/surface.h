@@ -68,6 +68,7 @@ struct DeviceSurface {
   Array<float> poisson_inverse;  // of L on what is orthogonal to the constant
   Array<double> phi;             // n x eigenpairs by rows, after the spectrum
   int32_t eigenpairs = 0;
+  Array<float> eigenfunctions;  // as the caller has them, after the first map
 };
 
 // Distances are made so many sources at a time: their fields stay small.

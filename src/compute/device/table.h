@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "compute/backend.h"
+#include "compute/device/maps.h"
 #include "compute/device/spectrum.h"
 #include "compute/device/surface.h"
 #include "compute/device/votes.h"
@@ -70,10 +71,10 @@ template <class Queue>
 class TableOf {
  public:
   static const ComputeTable* table() {
-    static const ComputeTable all{
-        sizeof(ComputeTable), compute_version, device_open,   device_close, surface_create,
-        surface_destroy,      spectrum_of,     signatures_of, distances_of, forest_create,
-        forest_destroy,       votes_of,        stages_of};
+    static const ComputeTable all{sizeof(ComputeTable), compute_version, device_open,    device_close,
+                                  surface_create,       surface_destroy, spectrum_of,    signatures_of,
+                                  distances_of,         forest_create,   forest_destroy, votes_of,
+                                  zoom_out_of,          stages_of};
     return &all;
   }
 
@@ -105,10 +106,18 @@ class TableOf {
                              ComputeFailure* failure) {
     return guarded(failure, [&] { *device = new Device<Queue>(Queue::open(index, name, name_size)); });
   }
+  // What cannot be given back in an orderly way, as when the driver has gone before, stays.
+  template <class Value>
+  static void give_up(int32_t device, Value* value) noexcept {
+    ComputeFailure ignored;
+    guarded(&ignored, [&] {
+      const typename Queue::Scope scope(device);
+      delete value;
+    });
+  }
   static void device_close(void* handle) {
     auto* device = static_cast<Device<Queue>*>(handle);
-    const typename Queue::Scope scope(device->number());
-    delete device;
+    give_up(device->number(), device);
   }
   template <class Value, class From>
   static int32_t create(void* handle, const From* from, void** out, ComputeFailure* failure) {
@@ -121,8 +130,7 @@ class TableOf {
   template <class Value>
   static void destroy(void* handle) {
     auto* value = static_cast<Value*>(handle);
-    const typename Queue::Scope scope(value->device().number());
-    delete value;
+    give_up(value->device().number(), value);
   }
   static int32_t surface_create(void* device, const ComputeSurface* surface, void** out,
                                 ComputeFailure* failure) {
@@ -160,9 +168,15 @@ class TableOf {
       votes(on, static_cast<Forest*>(forest)->value(), vertex, descriptor, count, stride, out);
     });
   }
+  static int32_t zoom_out_of(void* surface, const ComputeMap* map, int32_t* image, float* C, double* error,
+                             ComputeFailure* failure) {
+    return on_surface(surface, failure, [&](auto& on) { zoom_out(on, *map, image, C, error); });
+  }
   static int32_t stages_of(void* surface, ComputeStage* out, int32_t room) {
-    const typename Queue::Scope scope(surface_of(surface).device().number());
-    return surface_of(surface).value().clock.report(out, room);
+    int32_t count = 0;
+    ComputeFailure ignored;
+    on_surface(surface, &ignored, [&](auto& on) { count = on.clock.report(out, room); });
+    return count;
   }
 };
 
