@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "base/lazy.h"
 #include "handles.h"
 #include "landmarks/detect.h"
 #include "landmarks/regions.h"
-#include "lazy.h"
 #include "mesh.h"
 #include "model.h"
 

@@ -2,10 +2,10 @@
 #pragma once
 #include <memory>
 
+#include "base/lazy.h"
 #include "context.h"
 #include "handles.h"
 #include "landmarks/landmark_model.h"
-#include "lazy.h"
 
 namespace focal {
 

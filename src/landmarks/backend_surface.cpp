@@ -204,10 +204,10 @@ void BackendDistance::solve_block(std::span<const Source> sources, float* out,
     for (size_t j = 0; j < lanes; ++j) padded[j] = sources[std::min(j, sources.size() - 1)];
     return surface_->distances(padded, out);
   }
-  std::call_once(once_, [&] {
-    on_cpu_ = std::make_unique<HeatMethod>(mesh_->surface, operators_, execution, 1, keep_negative_heat_);
+  const auto& on_cpu = on_cpu_.get([&] {
+    return std::make_unique<const HeatMethod>(mesh_->surface, operators_, execution, 1, keep_negative_heat_);
   });
-  on_cpu_->solve_block(sources, out, execution);
+  on_cpu->solve_block(sources, out, execution);
 }
 
 }  // namespace focal

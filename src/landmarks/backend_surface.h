@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "base/lazy.h"
 #include "base/matrix.h"
 #include "compute/backend.h"
 #include "geodesics/distance.h"
@@ -63,8 +64,7 @@ class BackendDistance final : public Distance {
   bool keep_negative_heat_;
   const char* warning_ = nullptr;
   std::shared_ptr<BackendSurface> surface_;
-  mutable std::once_flag once_;
-  mutable std::unique_ptr<const Distance> on_cpu_;
+  Lazy<std::unique_ptr<const Distance>> on_cpu_;
 };
 
 }  // namespace focal
