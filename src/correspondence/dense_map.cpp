@@ -57,7 +57,7 @@ FunctionalMap map_between(const Detection& from, const Detection& to, const Exec
   execution.check_cancelled();
   return zoom_out({a.eigenfunctions, a.operators.mass.cast<float>()},
                   {b.eigenfunctions, farthest_points(b.surface().positions, spread_vertices)},
-                  std::move(first), rounds_of_map);
+                  std::move(first), rounds_of_map, execution);
 }
 
 // Of every vertex of `a` the point of `b` that is nearest in the embedding.

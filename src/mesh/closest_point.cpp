@@ -72,7 +72,7 @@ void search(const TriangleMesh& mesh, std::span<const SurfaceQuery> queries, con
 // One pass over the triangles for all queries still open.
 void search_all(const TriangleMesh& mesh, std::span<const SurfaceQuery> queries, double radius,
                 std::vector<Nearest>& found, const Execution& execution) {
-  constexpr int64_t grain = 1 << 15;  // some 30 ms
+  constexpr int64_t grain = 1 << 14;  // tens of milliseconds
   std::vector<int32_t> open;
   for (size_t q = 0; q < queries.size(); ++q)
     if (found[q].point.triangle < 0) open.push_back(static_cast<int32_t>(q));
@@ -88,10 +88,8 @@ void search_all(const TriangleMesh& mesh, std::span<const SurfaceQuery> queries,
       if (part[q].squared < found[q].squared) found[q] = part[q];
 }
 
-}  // namespace
-
-std::vector<SurfacePoint> closest_points(const TriangleMesh& mesh, std::span<const SurfaceQuery> queries,
-                                         double radius, const Execution& execution) {
+std::vector<SurfacePoint> closest_of_some(const TriangleMesh& mesh, std::span<const SurfaceQuery> queries,
+                                          double radius, const Execution& execution) {
   std::vector<Nearest> found(queries.size());
   const auto missing = [](const Nearest& n) { return n.point.triangle < 0; };
   const double everywhere = 1e6 * radius + 1e6;
@@ -104,6 +102,21 @@ std::vector<SurfacePoint> closest_points(const TriangleMesh& mesh, std::span<con
         consider(mesh, t, {queries[q].position, Vector3::Zero()}, found[q]);
     result.push_back(found[q].point);
   }
+  return result;
+}
+
+}  // namespace
+
+std::vector<SurfacePoint> closest_points(const TriangleMesh& mesh, std::span<const SurfaceQuery> queries,
+                                         double radius, const Execution& execution) {
+  constexpr int64_t chunk = 4096;  // so that a pass over some triangles is short, and its memory small
+  const auto count = static_cast<int64_t>(queries.size());
+  if (count <= chunk) return closest_of_some(mesh, queries, radius, execution);
+  std::vector<SurfacePoint> result(queries.size());
+  parallel_for_ranges(execution, count, chunk, [&](int64_t begin, int64_t end) {
+    const auto part = closest_of_some(mesh, queries.subspan(begin, end - begin), radius, execution.inner());
+    std::copy(part.begin(), part.end(), result.begin() + begin);
+  });
   return result;
 }
 

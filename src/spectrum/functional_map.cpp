@@ -120,16 +120,19 @@ class ZoomOut {
     map_.image = std::move(initial);
   }
 
-  FunctionalMap run() {
+  FunctionalMap run(const Execution& execution) {
     const auto most = static_cast<int32_t>(most_);
     for (int32_t k = std::min(params_.first, most);; k = std::min(k + params_.step, most)) {
+      execution.check_cancelled();
       fit(k);
       if (k == most) break;
       assign_spread(k);
     }
     const int64_t known = from_.Phi.rows();
     const int64_t exact = params_.exact_from < known ? params_.exact_from / tile * tile : known;
+    execution.check_cancelled();
     if (exact > 0) assign_spread(most);
+    execution.check_cancelled();
     if (exact < known) assign_all(most, exact);
     measure();
     return std::move(map_);
@@ -206,8 +209,8 @@ class ZoomOut {
 }  // namespace
 
 FunctionalMap zoom_out(const SpectralSamples& from, const SpectralTargets& to, std::vector<int32_t> initial,
-                       const MapParams& params) {
-  return ZoomOut(from, to, std::move(initial), params).run();
+                       const MapParams& params, const Execution& execution) {
+  return ZoomOut(from, to, std::move(initial), params).run(execution);
 }
 
 std::vector<int32_t> nearest_rows(const RowMatrixf& places, const RowMatrixf& targets) {

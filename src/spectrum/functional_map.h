@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/matrix.h"
+#include "base/parallel.h"
 
 namespace focal {
 
@@ -40,7 +41,7 @@ struct FunctionalMap {
 
 // Refines `initial`, the vertex of `to` where each point lies at first. Both have at least 4 eigenfunctions.
 FunctionalMap zoom_out(const SpectralSamples& from, const SpectralTargets& to, std::vector<int32_t> initial,
-                       const MapParams& params);
+                       const MapParams& params, const Execution& execution = {});
 
 // Per row of places the nearest row of targets; the first of equal ones.
 std::vector<int32_t> nearest_rows(const RowMatrixf& places, const RowMatrixf& targets);
