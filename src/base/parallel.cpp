@@ -41,7 +41,6 @@ void parallel_for(const Execution& execution, int64_t count, const std::function
   const MemoryBudget* const budget = memory_budget();
   const auto guarded = [&](int64_t i) noexcept {
     if (failed.load(std::memory_order_relaxed)) return;
-    const KeepTo kept(budget);
     try {
       execution.check_cancelled();
       body(i);
@@ -52,9 +51,13 @@ void parallel_for(const Execution& execution, int64_t count, const std::function
     }
   };
   if (execution.host_parallel_for && count > 1) {
-    execution.host_parallel_for(count, guarded);
+    execution.host_parallel_for(count, [&](int64_t i) {  // on threads that know nothing of the budget
+      const KeepTo kept(budget);
+      guarded(i);
+    });
   } else {
     const auto work = [&]() noexcept {
+      const KeepTo kept(budget);
       for (int64_t i; (i = next.fetch_add(1)) < count;) guarded(i);
     };
     JoiningThreads helpers;

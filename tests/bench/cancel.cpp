@@ -281,6 +281,7 @@ int main(int argc, char** argv) {
   const Subjects subjects = make_subjects(rings, threads);
   std::printf("%llu vertices, %d threads\n", static_cast<unsigned long long>(subjects.body.vertex_count),
               threads);
+  std::fflush(stdout);
   std::mt19937 random(1);
   std::vector<double> all;
   for (const auto& calls :
