@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "gltf/accessor.h"
 #include "gltf/fields.h"
+#include "gltf/json.h"
 #include "gltf/preflight.h"
 #include "gltf/scene.h"
 
@@ -84,8 +85,8 @@ std::optional<Channel> read_channel(const json& root, GltfBuffers& buffers, cons
   const json& sampler = element(entry, "sampler", *samplers);
   if (!sampler.is_object()) broken("has a sampler that is no object");
   const json* how = member(sampler, "interpolation");
-  if (how && *how == "STEP") channel.interpolation = Interpolation::step;
-  if (how && *how == "CUBICSPLINE") channel.interpolation = Interpolation::cubic;
+  if (how && is_text(*how, "STEP")) channel.interpolation = Interpolation::step;
+  if (how && is_text(*how, "CUBICSPLINE")) channel.interpolation = Interpolation::cubic;
   const RowMatrix times = values_of(root, buffers, sampler, "input");
   channel.values = values_of(root, buffers, sampler, "output");
   const Eigen::Index rows = times.rows() * (channel.interpolation == Interpolation::cubic ? 3 : 1);

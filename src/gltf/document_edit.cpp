@@ -15,6 +15,21 @@ OrderedJson& member_or_new(OrderedJson& object, const char* key, OrderedJson::va
   return value;
 }
 
+// nlohmann's erase copies the keys that follow between destroyed members, and frees nested values inside noexcept: memory must
+// not end in it. Here the values are swapped, once there is a place for each.
+bool remove(OrderedJson& object, const std::string& key) {
+  if (!find(object, key.c_str())) return false;
+  OrderedJsonDocument rest(std::as_bytes(std::span("{}", 2)), {});
+  auto& from = object.get_ref<OrderedJson::object_t&>();
+  auto& to = rest.root().get_ref<OrderedJson::object_t&>();
+  to.reserve(from.capacity());
+  for (const auto& [name, value] : from)
+    if (name != key) to.emplace(name, nullptr);
+  for (auto& [name, value] : to) value.swap(from[name]);
+  object.swap(rest.root());
+  return true;
+}
+
 OrderedJson* find(OrderedJson& object, const char* key) {
   const auto found = object.find(key);
   return found == object.end() ? nullptr : &*found;

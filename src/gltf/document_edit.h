@@ -21,6 +21,9 @@ void put(OrderedJson& slot, const std::string& text);
 // A member, made as an empty value of this kind when missing: references to other members of the object end then.
 OrderedJson& member_or_new(OrderedJson& object, const char* key, OrderedJson::value_t kind);
 
+// Takes a member out, if it is there; references to members of the object end then.
+bool remove(OrderedJson& object, const std::string& key);
+
 OrderedJson* find(OrderedJson& object, const char* key);  // null when there is none
 
 // Appends a parsed element to a list of the root; its index.

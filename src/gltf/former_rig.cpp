@@ -42,7 +42,7 @@ void FormerRigs::release_groups() {
   const auto is_former = [&](const Json& index) {
     Json& node = root_["nodes"][index.get<size_t>()];
     const Json* name = find(node, "name");
-    if (!name || *name != "focal_skeleton" || !focal_extras(node)) return false;
+    if (!name || !is_text(*name, "focal_skeleton") || !focal_extras(node)) return false;
     const auto tree = bare_tree(index.get<size_t>());
     for (const size_t one : tree) released_[one] = true;
     result_.nodes.insert(result_.nodes.end(), tree.begin(), tree.end());
@@ -62,7 +62,7 @@ void FormerRigs::release_skins() {
   for (Json& node : root_["nodes"]) {
     const Json* skin = find(node, "skin");
     if (skin && std::count(result_.skins.begin(), result_.skins.end(), skin->get<size_t>()))
-      node.erase("skin");
+      remove(node, "skin");
   }
 }
 
@@ -76,8 +76,11 @@ void FormerRigs::release_animations() {
     });
   };
   auto& list = animations->get_ref<Json::array_t&>();
-  list.erase(std::remove_if(list.begin(), list.end(), moves_former_alone), list.end());
-  if (list.empty()) root_.erase("animations");  // glTF allows no empty list
+  for (Json& animation : list)
+    if (moves_former_alone(animation)) put(animation, "null");
+  list.erase(std::remove_if(list.begin(), list.end(), [](const Json& one) { return one.is_null(); }),
+             list.end());
+  if (list.empty()) remove(root_, "animations");  // glTF allows no empty list
 }
 
 FormerRig FormerRigs::release() {

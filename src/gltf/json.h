@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <span>
+#include <string_view>
 #include <utility>
 
 namespace focal {
@@ -35,6 +36,13 @@ class BasicJsonDocument {
 
   Json root_;
 };
+
+// Whether a value is this text: nlohmann's own == makes a value of it, which may throw where nothing may.
+template <class Json>
+bool is_text(const Json& value, std::string_view text) {
+  const auto* own = value.template get_ptr<const typename Json::string_t*>();
+  return own && *own == text;
+}
 
 using JsonDocument = BasicJsonDocument<nlohmann::json>;
 using OrderedJsonDocument =

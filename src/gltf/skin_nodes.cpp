@@ -202,7 +202,9 @@ void SkinInserter::add_weights(const GltfPrimitive& primitive) {
   Json& attributes = root_["meshes"][primitive.mesh]["primitives"][primitive.primitive]["attributes"];
   for (int set = 0;; ++set) {
     const std::string number = std::to_string(set);
-    if (attributes.erase("JOINTS_" + number) + attributes.erase("WEIGHTS_" + number) == 0) break;
+    const bool had_joints = remove(attributes, "JOINTS_" + number);
+    const bool had_weights = remove(attributes, "WEIGHTS_" + number);
+    if (!had_joints && !had_weights) break;
   }
   attributes["JOINTS_0"] = joints, attributes["WEIGHTS_0"] = shares;
 }
@@ -217,7 +219,7 @@ void SkinInserter::turn_triangles(const GltfPrimitive& primitive) {
   const size_t accessor =
       add_accessor(indices, indices.size(), R"("componentType":5125,"type":"SCALAR")", kIndexTarget);
   Json& element = root_["meshes"][primitive.mesh]["primitives"][primitive.primitive];
-  element.erase("mode");  // a strip or fan is a list now
+  remove(element, "mode");  // a strip or fan is a list now
   element["indices"] = accessor;
 }
 
@@ -307,7 +309,7 @@ void SkinInserter::attach(const GltfPrimitive& primitive, size_t skin) {
     const Json* own = find(node, "name");
     if (own && own->is_string()) name = R"("name":)" + json_string(own->get<std::string>()) + ",";
     if (const Json* weights = find(node, "weights")) name += R"("weights":)" + weights->dump() + ",";
-    for (const char* key : {"mesh", "skin", "weights"}) node.erase(key);
+    for (const char* key : {"mesh", "skin", "weights"}) remove(node, key);
   }
   roots.push_back(append_element(root_, "nodes",
                                  "{" + name + R"("mesh":)" + std::to_string(primitive.mesh) + R"(,"skin":)" +
@@ -322,7 +324,7 @@ void SkinInserter::retire_former_skins(size_t count) {
     if (const Json* skin = find(node, "skin"); skin && skin->get<size_t>() < count)
       used[skin->get<size_t>()] = true;
   for (size_t skin = 0; skin < count; ++skin)
-    if (!used[skin]) root_["skins"][skin].erase("skeleton");
+    if (!used[skin]) remove(root_["skins"][skin], "skeleton");
 }
 
 void SkinInserter::add() {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "gltf/document_edit.h"
 
 using namespace focal;
 
@@ -57,4 +58,15 @@ TEST_CASE("an ordered document is written as it was read") {
       R"({"z":null,"a":[18446744073709551615,-9223372036854775808,1.0,0.1,1e-300],"":{"y":{},"x":[]},"u":"\u0001é","b":true})";
   OrderedJsonDocument document(std::as_bytes(std::span(text)), {});
   CHECK(document.root().dump() == text);
+}
+
+TEST_CASE("a member is taken out, and the others stay in their order") {
+  const std::string text = R"({"a":{"b":[1,{"c":2}]},"a key longer than any short string":3,"d":"text"})";
+  OrderedJsonDocument document(std::as_bytes(std::span(text)), {});
+  CHECK_FALSE(remove(document.root(), "none"));
+  CHECK(remove(document.root(), "a"));
+  CHECK(document.root().dump() == R"({"a key longer than any short string":3,"d":"text"})");
+  CHECK(is_text(document.root()["d"], "text"));
+  CHECK_FALSE(is_text(document.root()["d"], "tex"));
+  CHECK_FALSE(is_text(document.root()["a key longer than any short string"], "3"));
 }
