@@ -53,8 +53,8 @@ void check_suffix(const std::filesystem::path& path, bool binary) {
 }
 
 // Landmarks x vertices of the proxy, as values of the full surface; the largest of each is 1.
-RowMatrixf carried_over(const RowMatrixf& votes, const Proxy& proxy) {
-  const auto places = coarse_place_of_vertices(proxy);
+RowMatrixf carried_over(const RowMatrixf& votes, const Proxy& proxy, const Execution& execution) {
+  const auto places = coarse_place_of_vertices(proxy, execution);
   RowMatrixf result = RowMatrixf::Zero(votes.rows(), static_cast<Eigen::Index>(places.size()));
   for (size_t v = 0; v < places.size(); ++v)
     for (int i = 0; i < 3; ++i)
@@ -86,7 +86,9 @@ const RowMatrixf& DetectionObject::full_votes() const {
     throw Error(Status::unsupported, "the detection has no vote maps",
                 "detect with focal_detect_params.keep_votes 1");
   if (detection.proxy.is_full()) return detection.votes;
-  return votes_.get([&] { return carried_over(detection.votes, detection.proxy); });
+  return votes_.get([&] {
+    return carried_over(detection.votes, detection.proxy, model->context->execution_with(nullptr));
+  });
 }
 
 }  // namespace focal

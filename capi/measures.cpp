@@ -139,11 +139,14 @@ focal_status focal_symmetry_plane_init(focal_symmetry_plane* plane, size_t struc
 }
 
 focal_status focal_mesh_symmetry_plane(const focal_context* context, const focal_mesh* mesh, uint64_t seed,
-                                       focal_symmetry_plane* out_plane) {
+                                       focal_task* task, focal_symmetry_plane* out_plane) {
   return guarded([&] {
     const auto running = resolve<ContextObject>(context);
     const PreparedMesh& prepared = *resolve<MeshObject>(mesh)->mesh;
-    const SymmetryPlane plane = symmetry_plane(prepared.surface, seed, running->execution_with(nullptr));
+    const TaskLease lease(task);
+    const Execution execution = running->execution_with(lease.task());
+    execution.begin_stage("symmetry", 0, 1);
+    const SymmetryPlane plane = symmetry_plane(prepared.surface, seed, execution);
     focal_symmetry_plane result{};
     position_out(plane.normal, result.normal);
     result.offset = prepared.scale * plane.offset + plane.normal.dot(prepared.centre);
@@ -158,7 +161,7 @@ uint64_t focal_analysis_sample_count(const focal_analysis* analysis) {
 }
 
 focal_status focal_model_regress(const focal_model* model, const focal_analysis* analysis, uint32_t index,
-                                 const focal_surface_point* truth, uint64_t sample_count,
+                                 const focal_surface_point* truth, focal_task* task, uint64_t sample_count,
                                  float* out_regressed, float* out_true) {
   return guarded([&] {
     require(out_regressed, "out_regressed");
@@ -169,8 +172,11 @@ focal_status focal_model_regress(const focal_model* model, const focal_analysis*
     check_index(index, object->info.landmark_names.size(), "the model", "landmarks");
     check_count(sample_count, analysed->analysis.samples.size(), "sample_count", "the analysis");
     const SurfacePoint place = point_in(*analysed->mesh->mesh, *truth, "the truth");
-    const Regression result = regress(*object->model, analysed->analysis, static_cast<int32_t>(index), place,
-                                      object->context->execution_with(nullptr));
+    const TaskLease lease(task);
+    const Execution execution = object->context->execution_with(lease.task());
+    execution.begin_stage("regression", 0, 1);
+    const Regression result =
+        regress(*object->model, analysed->analysis, static_cast<int32_t>(index), place, execution);
     std::copy_n(result.regressed.data(), result.regressed.size(), out_regressed);
     std::copy_n(result.truth.data(), result.truth.size(), out_true);
   });

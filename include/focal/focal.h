@@ -328,7 +328,8 @@ FOCAL_API focal_status focal_mesh_distances(const focal_context* context, const 
                                             focal_task* task, uint64_t vertex_count, float* out_distances);
 
 /* The plane that mirrors most of the surface onto itself: {x : normal . x = offset}, by votes of pairs of points
- * that look alike (Mitra, Guibas, Pauly 2006). The sign of the normal carries no meaning. */
+ * that look alike (Mitra, Guibas, Pauly 2006). The sign of the normal carries no meaning. task may be NULL.
+ * Errors: CANCELLED. */
 typedef struct focal_symmetry_plane {
   uint32_t struct_size;
   float normal[3]; /* of length 1 */
@@ -338,7 +339,8 @@ typedef struct focal_symmetry_plane {
 
 FOCAL_API focal_status focal_symmetry_plane_init(focal_symmetry_plane* plane, size_t struct_size);
 FOCAL_API focal_status focal_mesh_symmetry_plane(const focal_context* context, const focal_mesh* mesh,
-                                                 uint64_t seed, focal_symmetry_plane* out_plane);
+                                                 uint64_t seed, focal_task* task,
+                                                 focal_symmetry_plane* out_plane);
 
 /* ---- Training set [builder] ---- */
 
@@ -506,10 +508,10 @@ FOCAL_API focal_status focal_analysis_load(const focal_context* context, const f
  * `index` that follows from its descriptor, and the true one to `truth`, a point of the mesh. Preset default: in
  * units of sqrt(surface_area), the mean of what the leaves hold. Preset paper: shares of the sample's own
  * largest distance; of the two sides of the symmetry plane those that fit the truth better. sample_count must
- * be the analysis's. Errors: INVALID_ARGUMENT, INVALID_LANDMARK. */
+ * be the analysis's. task may be NULL. Errors: INVALID_ARGUMENT, INVALID_LANDMARK, CANCELLED. */
 FOCAL_API uint64_t focal_analysis_sample_count(const focal_analysis* analysis);
 FOCAL_API focal_status focal_model_regress(const focal_model* model, const focal_analysis* analysis,
-                                           uint32_t index, const focal_surface_point* truth,
+                                           uint32_t index, const focal_surface_point* truth, focal_task* task,
                                            uint64_t sample_count, float* out_regressed, float* out_true);
 
 typedef int32_t focal_landmark_status;

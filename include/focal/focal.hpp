@@ -132,9 +132,9 @@ class Mesh : public Owner<focal_mesh, focal_mesh_destroy> {
                                result.size(), result.data()));
     return result;
   }
-  focal_symmetry_plane symmetry_plane(const Context& context, uint64_t seed = 0) const {
+  focal_symmetry_plane symmetry_plane(const Context& context, uint64_t seed = 0, Task* task = nullptr) const {
     auto plane = init(focal_symmetry_plane_init);
-    check(focal_mesh_symmetry_plane(context.get(), handle_, seed, &plane));
+    check(focal_mesh_symmetry_plane(context.get(), handle_, seed, task ? task->get() : nullptr, &plane));
     return plane;
   }
 };
@@ -268,12 +268,13 @@ class Model : public Owner<focal_model, focal_model_destroy> {
   struct Regression {
     std::vector<float> regressed, truth;  // one a sample of the analysis
   };
-  Regression regress(const Analysis& analysis, uint32_t landmark, const focal_surface_point& truth) const {
+  Regression regress(const Analysis& analysis, uint32_t landmark, const focal_surface_point& truth,
+                     Task* task = nullptr) const {
     Regression result;
     result.regressed.resize(static_cast<size_t>(analysis.sample_count()));
     result.truth.resize(result.regressed.size());
-    check(focal_model_regress(handle_, analysis.get(), landmark, &truth, result.truth.size(),
-                              result.regressed.data(), result.truth.data()));
+    check(focal_model_regress(handle_, analysis.get(), landmark, &truth, task ? task->get() : nullptr,
+                              result.truth.size(), result.regressed.data(), result.truth.data()));
     return result;
   }
   Detection detect(const Analysis& analysis, const focal_detect_params* params = nullptr,

@@ -109,7 +109,7 @@ std::vector<SurfacePoint> at_full_vertices(const SurfaceAnalysis& a, const Surfa
                                            const Execution& execution) {
   const MatrixX3 normals = face_normals(b.surface());
   std::vector<SurfaceQuery> queries;
-  for (const SurfacePoint& place : coarse_place_of_vertices(a.proxy)) {
+  for (const SurfacePoint& place : coarse_place_of_vertices(a.proxy, execution)) {
     SurfaceQuery query{Vector3::Zero(), Vector3::Zero()};
     for (int i = 0; i < 3; ++i) {
       const SurfacePoint& image = images[a.surface().triangles(place.triangle, i)];

@@ -70,9 +70,10 @@ std::vector<int32_t> k_means(const RowMatrix& features, RowMatrix centres, const
 }
 
 // From the vertices of the analysed surface to those of the caller's mesh: the label of the nearest corner.
-std::vector<int32_t> at_source_vertices(const Detection& detection, const std::vector<int32_t>& coarse) {
+std::vector<int32_t> at_source_vertices(const Detection& detection, const std::vector<int32_t>& coarse,
+                                        const Execution& execution) {
   const SurfaceAnalysis& analysis = *detection.analysis;
-  const auto places = coarse_place_of_vertices(analysis.proxy);
+  const auto places = coarse_place_of_vertices(analysis.proxy, execution);
   std::vector<int32_t> result;
   for (const int32_t v : detection.mesh->surface_vertex) {
     result.push_back(-1);
@@ -107,7 +108,7 @@ std::vector<int32_t> segment_k_means(const Detection& detection, const Execution
   std::vector<int32_t> label = k_means(features, std::move(centres), analysis.operators.mass, execution);
   if (seed_vertices.empty())
     for (int32_t& l : label) l = found[l];
-  return triangle_labels(*detection.mesh, at_source_vertices(detection, label));
+  return triangle_labels(*detection.mesh, at_source_vertices(detection, label, execution));
 }
 
 std::vector<int32_t> segment_geodesic(const Detection& detection, const Execution& execution) {
@@ -122,7 +123,7 @@ std::vector<int32_t> segment_geodesic(const Detection& detection, const Executio
       label[v] = found[nearest];
     }
   }
-  return triangle_labels(*detection.mesh, at_source_vertices(detection, label));
+  return triangle_labels(*detection.mesh, at_source_vertices(detection, label, execution));
 }
 
 std::vector<int32_t> triangle_labels(const PreparedMesh& mesh,

@@ -11,7 +11,7 @@ namespace focal {
 DistanceFields::DistanceFields(Proxy proxy, const Execution& execution) : proxy_(std::move(proxy)) {
   const PreparedMesh& coarse = *proxy_.coarse;
   heat_ = HeatMethod(coarse.surface, make_operators(coarse.surface, coarse.bridges, true), execution);
-  places_ = coarse_place_of_vertices(proxy_);
+  places_ = coarse_place_of_vertices(proxy_, execution);
   Components parts = components_of(coarse.surface);
   if (parts.count > 1 && coarse.bridges.empty()) part_ = std::move(parts.of_vertex);
 }

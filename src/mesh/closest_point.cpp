@@ -4,6 +4,8 @@
 #include <array>
 #include <limits>
 
+#include "mesh/triangle_tree.h"
+
 namespace focal {
 namespace {
 
@@ -19,8 +21,11 @@ void consider(const TriangleMesh& mesh, int32_t t, const SurfaceQuery& query, Ne
   const Vector3 weights = closest_on_triangle(query.position, at[0], at[1], at[2]);
   const Vector3 place = weights[0] * at[0] + weights[1] * at[1] + weights[2] * at[2];
   const double squared = (place - query.position).squaredNorm();
-  if (squared < nearest.squared) nearest = {{t, weights}, squared};
+  if (squared < nearest.squared || (squared == nearest.squared && t < nearest.point.triangle))
+    nearest = {{t, weights}, squared};
 }
+
+SurfaceQuery facing_anywhere(const SurfaceQuery& query) { return {query.position, Vector3::Zero()}; }
 
 // The queries whose ball may reach a triangle, by slabs across the longest axis of them all.
 class QuerySlabs {
@@ -99,9 +104,32 @@ std::vector<SurfacePoint> closest_of_some(const TriangleMesh& mesh, std::span<co
   for (size_t q = 0; q < queries.size(); ++q) {
     if (missing(found[q]))  // nothing faces that way: any triangle will do
       for (int32_t t = 0; t < mesh.triangle_count(); ++t)
-        consider(mesh, t, {queries[q].position, Vector3::Zero()}, found[q]);
+        consider(mesh, t, facing_anywhere(queries[q]), found[q]);
     result.push_back(found[q].point);
   }
+  return result;
+}
+
+SurfacePoint closest_in(const TriangleTree& tree, const TriangleMesh& mesh, const SurfaceQuery& query) {
+  constexpr double rounding = 1 + 1e-12;  // a box may seem farther than the triangle that touches it
+  Nearest nearest;
+  tree.search([&](const Eigen::AlignedBox3d& box) { return box.squaredExteriorDistance(query.position); },
+              [&] { return nearest.squared * rounding; },
+              [&](int32_t t) { consider(mesh, t, query, nearest); });
+  return nearest.point;
+}
+
+// Worth the making of a tree: hundreds of queries.
+std::vector<SurfacePoint> closest_of_many(const TriangleMesh& mesh, std::span<const SurfaceQuery> queries,
+                                          const Execution& execution) {
+  const TriangleTree tree(mesh, execution);
+  std::vector<SurfacePoint> result(queries.size());
+  parallel_for_ranges(execution, static_cast<int64_t>(queries.size()), 32, [&](int64_t begin, int64_t end) {
+    for (int64_t q = begin; q < end; ++q) {
+      result[q] = closest_in(tree, mesh, queries[q]);
+      if (result[q].triangle < 0) result[q] = closest_in(tree, mesh, facing_anywhere(queries[q]));
+    }
+  });
   return result;
 }
 
@@ -109,15 +137,9 @@ std::vector<SurfacePoint> closest_of_some(const TriangleMesh& mesh, std::span<co
 
 std::vector<SurfacePoint> closest_points(const TriangleMesh& mesh, std::span<const SurfaceQuery> queries,
                                          double radius, const Execution& execution) {
-  constexpr int64_t chunk = 4096;  // so that a pass over some triangles is short, and its memory small
-  const auto count = static_cast<int64_t>(queries.size());
-  if (count <= chunk) return closest_of_some(mesh, queries, radius, execution);
-  std::vector<SurfacePoint> result(queries.size());
-  parallel_for_ranges(execution, count, chunk, [&](int64_t begin, int64_t end) {
-    const auto part = closest_of_some(mesh, queries.subspan(begin, end - begin), radius, execution.inner());
-    std::copy(part.begin(), part.end(), result.begin() + begin);
-  });
-  return result;
+  constexpr size_t few = 512;
+  return queries.size() <= few ? closest_of_some(mesh, queries, radius, execution)
+                               : closest_of_many(mesh, queries, execution);
 }
 
 Vector3 closest_on_triangle(const Vector3& p, const Vector3& a, const Vector3& b, const Vector3& c) {

@@ -64,7 +64,7 @@ std::vector<SurfacePoint> to_full(const Proxy& proxy, std::span<const SurfacePoi
                         search_radius * mean_edge_length(coarse) * proxy.coarse->scale, execution);
 }
 
-std::vector<SurfacePoint> coarse_place_of_vertices(const Proxy& proxy) {
+std::vector<SurfacePoint> coarse_place_of_vertices(const Proxy& proxy, const Execution& execution) {
   const TriangleMesh& coarse = proxy.coarse->surface;
   const int32_t n = proxy.full->surface.vertex_count();
   std::vector<SurfacePoint> result(n);
@@ -74,7 +74,7 @@ std::vector<SurfacePoint> coarse_place_of_vertices(const Proxy& proxy) {
   std::vector<int32_t> all(coarse.vertex_count());
   for (size_t v = 0; v < all.size(); ++v) all[v] = static_cast<int32_t>(v);
   const NearestVertex search(coarse.positions, all);
-  for (int32_t v = 0; v < n; ++v) {
+  const auto place_vertex = [&](int64_t v) {
     Vector3 place = proxy.full->surface.positions.row(v);
     if (!proxy.is_full()) place = (place - proxy.coarse->centre) / proxy.coarse->scale;
     double nearest = std::numeric_limits<double>::infinity();
@@ -86,7 +86,10 @@ std::vector<SurfacePoint> coarse_place_of_vertices(const Proxy& proxy) {
           (weights[0] * at[0] + weights[1] * at[1] + weights[2] * at[2] - place).squaredNorm();
       if (squared < nearest) nearest = squared, result[v] = {t, weights};
     }
-  }
+  };
+  parallel_for_ranges(execution, n, 1024, [&](int64_t begin, int64_t end) {
+    for (int64_t v = begin; v < end; ++v) place_vertex(v);
+  });
   return result;
 }
 

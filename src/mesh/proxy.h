@@ -33,6 +33,6 @@ std::vector<SurfacePoint> to_full(const Proxy& proxy, std::span<const SurfacePoi
                                   const Execution& execution = {});
 
 // For every vertex of the full surface its place on the coarse one: carries vote maps over.
-std::vector<SurfacePoint> coarse_place_of_vertices(const Proxy& proxy);
+std::vector<SurfacePoint> coarse_place_of_vertices(const Proxy& proxy, const Execution& execution);
 
 }  // namespace focal

@@ -1,16 +1,18 @@
 // What a ray meets first, on a mesh that is asked often.
 #pragma once
 #include <limits>
-#include <vector>
+#include <utility>
 
 #include "mesh/triangle_mesh.h"
+#include "mesh/triangle_tree.h"
 
 namespace focal {
 
-// A hierarchy of boxes round the triangles, halved at the median. It keeps its own copy of the mesh.
+// It keeps its own copy of the mesh.
 class RayCaster {
  public:
-  explicit RayCaster(TriangleMesh mesh);
+  explicit RayCaster(TriangleMesh mesh, const Execution& execution = Execution().inner())
+      : mesh_(std::move(mesh)), tree_(mesh_, execution) {}
 
   struct Hit {
     double distance = std::numeric_limits<double>::infinity();  // in lengths of the ray's direction
@@ -24,17 +26,8 @@ class RayCaster {
   const TriangleMesh& mesh() const { return mesh_; }
 
  private:
-  struct Node {
-    Eigen::AlignedBox3d box;
-    int32_t first = 0,
-            count = 0;  // of order_; count 0: an inner node, whose halves are the next node and `second`
-    int32_t second = 0;
-  };
-  int32_t build(int32_t first, int32_t count, const MatrixX3& centres);
-
   TriangleMesh mesh_;
-  std::vector<int32_t> order_;
-  std::vector<Node> nodes_;
+  TriangleTree tree_;
 };
 
 }  // namespace focal

@@ -39,16 +39,19 @@ ToCaller::ToCaller(const SurfaceAnalysis& analysis) {
   scale *= analysis.proxy.coarse->scale;
 }
 
-std::vector<VertexInfluences> influences_on_source(const RowMatrixf& weights,
-                                                   const SurfaceAnalysis& analysis) {
-  std::vector<VertexInfluences> on_surface;
-  for (const SurfacePoint& place : coarse_place_of_vertices(analysis.proxy)) {
-    Eigen::RowVectorXf mixed = Eigen::RowVectorXf::Zero(weights.cols());
-    for (int c = 0; c < 3; ++c)
-      mixed += static_cast<float>(place.barycentric[c]) *
-               weights.row(analysis.surface().triangles(place.triangle, c));
-    on_surface.push_back(influences_of(mixed));
-  }
+std::vector<VertexInfluences> influences_on_source(const RowMatrixf& weights, const SurfaceAnalysis& analysis,
+                                                   const Execution& execution) {
+  const auto places = coarse_place_of_vertices(analysis.proxy, execution);
+  std::vector<VertexInfluences> on_surface(places.size());
+  parallel_for_ranges(execution, static_cast<int64_t>(places.size()), 1024, [&](int64_t begin, int64_t end) {
+    for (int64_t v = begin; v < end; ++v) {
+      Eigen::RowVectorXf mixed = Eigen::RowVectorXf::Zero(weights.cols());
+      for (int c = 0; c < 3; ++c)
+        mixed += static_cast<float>(places[v].barycentric[c]) *
+                 weights.row(analysis.surface().triangles(places[v].triangle, c));
+      on_surface[v] = influences_of(mixed);
+    }
+  });
   std::vector<VertexInfluences> result;
   for (const int32_t v : analysis.proxy.full->surface_vertex)
     result.push_back(v >= 0 ? on_surface[v] : VertexInfluences{});

@@ -28,8 +28,8 @@ struct ToCaller {
 };
 
 // From weights at the vertices of the analysed surface (vertices x joints, >= 0) to the heaviest of each source vertex.
-std::vector<VertexInfluences> influences_on_source(const RowMatrixf& weights,
-                                                   const SurfaceAnalysis& analysis);
+std::vector<VertexInfluences> influences_on_source(const RowMatrixf& weights, const SurfaceAnalysis& analysis,
+                                                   const Execution& execution);
 
 // Both sides get bones of the same length, each joint moved along its bone; pairs are told by their names (see mirrored_name).
 // Of a pair the side that is known better counts more. The limbs keep their pose.

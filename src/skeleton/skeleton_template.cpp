@@ -285,7 +285,7 @@ CharacterRig rig_by_template(const SkeletonTemplate& skeleton, const Detection& 
   const auto count = static_cast<int32_t>(joints.size());
   const RowMatrixf weights =
       bone_heat_weights(analysis, placer.rays(), placer.bones(joints), count, execution);
-  result.rig.influences = influences_on_source(weights, analysis);
+  result.rig.influences = influences_on_source(weights, analysis, execution);
 
   ShapeRig shape;  // for the tips: the far ends of the parts
   std::vector<Influence> row(joints.size());

@@ -114,7 +114,7 @@ static void check_measures(focal_mesh* mesh, const shape* truth) {
   CHECK_REFUSED(focal_mesh_distances(context, mesh, 0, &point, NULL, 3, near), FOCAL_ERROR_INVALID_ARGUMENT,
                 "vertex_count is 3");
   CHECK_OK(focal_symmetry_plane_init(&plane, sizeof plane));
-  CHECK_OK(focal_mesh_symmetry_plane(context, mesh, 1, &plane));
+  CHECK_OK(focal_mesh_symmetry_plane(context, mesh, 1, NULL, &plane));
   double length = 0;
   for (int k = 0; k < 3; ++k) length += plane.normal[k] * plane.normal[k];
   CHECK(fabs(length - 1) < 1e-5 && plane.support > 0.3 && plane.support <= 1);
@@ -133,15 +133,15 @@ static void check_regression(focal_mesh* mesh, const shape* truth) {
     CHECK(count >= 100);
     float *told = malloc(count * sizeof *told), *real = malloc(count * sizeof *real);
     CHECK_OK(focal_mesh_point_at_vertex(mesh, truth->marks[1], &place));
-    CHECK_OK(focal_model_regress(model, analysis, 1, &place, count, told, real));
+    CHECK_OK(focal_model_regress(model, analysis, 1, &place, NULL, count, told, real));
     double off = 0, mean = 0, spread = 0;
     for (uint64_t s = 0; s < count; ++s) mean += real[s] / (double)count;
     for (uint64_t s = 0; s < count; ++s) off += pow(told[s] - real[s], 2), spread += pow(real[s] - mean, 2);
     printf("preset %d: regression leaves %.3f of the variance\n", preset, off / spread);
     CHECK(off < 0.9 * spread);
-    CHECK_REFUSED(focal_model_regress(model, analysis, 9, &place, count, told, real),
+    CHECK_REFUSED(focal_model_regress(model, analysis, 9, &place, NULL, count, told, real),
                   FOCAL_ERROR_INVALID_ARGUMENT, "landmarks");
-    CHECK_REFUSED(focal_model_regress(model, analysis, 1, &place, count + 1, told, real),
+    CHECK_REFUSED(focal_model_regress(model, analysis, 1, &place, NULL, count + 1, told, real),
                   FOCAL_ERROR_INVALID_ARGUMENT, "sample_count");
     free(told);
     free(real);

@@ -34,7 +34,7 @@ void check_sphere(const Proxy& proxy, double radius) {
   };
   const std::vector<SurfacePoint> full = {to_surface(*proxy.full, point)};
   const double at_source = half_edge(to_coarse(proxy, full)[0]);
-  const auto places = coarse_place_of_vertices(proxy);
+  const auto places = coarse_place_of_vertices(proxy, {});
   for (int32_t v = 0; v < source.vertex_count(); ++v) {
     const double truth =
         radius *

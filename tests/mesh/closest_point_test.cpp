@@ -52,3 +52,30 @@ TEST_CASE("between two sheets the side that faces the same way is taken") {
   CHECK(closest_points(mesh, std::span(&down, 1), 0.5)[0].triangle == 1);
   CHECK(closest_points(mesh, std::span(&any, 1), 0.5)[0].triangle == 1);
 }
+
+TEST_CASE("many queries get what each gets alone, to the last bit") {
+  const TriangleMesh mesh = sphere(4);
+  Random random(7);
+  std::vector<SurfaceQuery> queries;
+  for (int i = 0; i < 700; ++i) {
+    const Vector3 any(random.normal(), random.normal(), random.normal());
+    const int corner = i % mesh.vertex_count();  // as near to several triangles
+    const Vector3 at = i % 3 == 0 ? Vector3(mesh.positions.row(corner).transpose()) : Vector3(0.7 * any);
+    queries.push_back({at, i % 2 == 0 ? Vector3::Zero().eval() : any});
+  }
+  const auto together = closest_points(mesh, queries, 0.01);
+  for (size_t i = 0; i < queries.size(); ++i) {
+    const SurfacePoint alone = closest_points(mesh, std::span(&queries[i], 1), 10)[0];
+    CHECK(together[i].triangle == alone.triangle);
+    CHECK(together[i].barycentric == alone.barycentric);
+  }
+}
+
+TEST_CASE("where nothing faces the query's way any triangle will do") {
+  TriangleMesh mesh;
+  mesh.positions = MatrixX3::Identity(3, 3);
+  mesh.triangles.resize(1, 3);
+  mesh.triangles << 0, 1, 2;
+  const std::vector<SurfaceQuery> queries(600, {Vector3(1, 1, 1), -Vector3::Ones()});
+  for (const SurfacePoint& point : closest_points(mesh, queries, 0.1)) CHECK(point.triangle == 0);
+}

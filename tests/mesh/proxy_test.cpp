@@ -51,7 +51,7 @@ TEST_CASE("points go over to the proxy and back to nearly where they were") {
     const double moved = (position_of(mesh->surface, points[i]) - position_of(mesh->surface, back[i])).norm();
     CHECK(moved < 0.2 * mean_edge_length(proxy.coarse->surface));
   }
-  const auto places = coarse_place_of_vertices(proxy);
+  const auto places = coarse_place_of_vertices(proxy, {});
   REQUIRE(static_cast<int32_t>(places.size()) == mesh->surface.vertex_count());
   for (int32_t v = 0; v < mesh->surface.vertex_count(); ++v) {
     const Vector3 carried =

@@ -15,7 +15,7 @@ from ._correspondence import Correspondence
 from ._detection import Detection, Landmark, Place
 from ._errors import Cancelled, Error, LibraryError
 from ._library import VERSION, descriptors, distances, load_library, peak_memory_bytes, version
-from ._mesh import NO_TRIANGLE, Mesh
+from ._mesh import NO_TRIANGLE, Mesh, SymmetryPlane
 from ._model import Analysis, Model
 from ._skeleton import Joint, Skeleton
 from ._task import Task
@@ -27,8 +27,8 @@ __version__ = ".".join(map(str, VERSION))
 __all__ = [
     "Analysis", "Backend", "BoneNames", "Cancelled", "Context", "Correspondence", "Descriptor", "Detection", "Distance",
     "Error", "Joint", "Landmark", "LandmarkStatus", "LibraryError", "LogLevel", "Mesh", "Model", "NO_TRIANGLE", "Place",
-    "Preset", "Quality", "Segmentation", "Skeleton", "Status", "SurfacePoint", "Task", "TrainingSet", "descriptors",
-    "distances", "load_library", "peak_memory_bytes", "version",
+    "Preset", "Quality", "Segmentation", "Skeleton", "Status", "SurfacePoint", "SymmetryPlane", "Task", "TrainingSet",
+    "descriptors", "distances", "load_library", "peak_memory_bytes", "version",
 ]
 
 for _name in __all__:  # shown, and pickled, by the name that users know

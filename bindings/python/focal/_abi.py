@@ -387,7 +387,8 @@ FUNCTIONS = {
     "focal_mesh_distances": (c_int32, [
         P(focal_context), P(focal_mesh), c_int32, P(focal_surface_point), P(focal_task), c_uint64, P(c_float)]),
     "focal_symmetry_plane_init": (c_int32, [P(focal_symmetry_plane), c_size_t]),
-    "focal_mesh_symmetry_plane": (c_int32, [P(focal_context), P(focal_mesh), c_uint64, P(focal_symmetry_plane)]),
+    "focal_mesh_symmetry_plane": (c_int32, [
+        P(focal_context), P(focal_mesh), c_uint64, P(focal_task), P(focal_symmetry_plane)]),
     "focal_training_set_create": (c_int32, [P(focal_context), P(c_char_p), c_uint64, P(P(focal_training_set))]),
     "focal_training_set_destroy": (c_int32, [P(focal_training_set)]),
     "focal_training_set_add": (c_int32, [P(focal_training_set), P(focal_mesh), P(focal_surface_point), c_uint64]),
@@ -420,7 +421,8 @@ FUNCTIONS = {
     "focal_analysis_load": (c_int32, [P(focal_context), P(focal_mesh), c_char_p, P(P(focal_analysis))]),
     "focal_analysis_sample_count": (c_uint64, [P(focal_analysis)]),
     "focal_model_regress": (c_int32, [
-        P(focal_model), P(focal_analysis), c_uint32, P(focal_surface_point), c_uint64, P(c_float), P(c_float)]),
+        P(focal_model), P(focal_analysis), c_uint32, P(focal_surface_point), P(focal_task), c_uint64, P(c_float),
+        P(c_float)]),
     "focal_landmark_init": (c_int32, [P(focal_landmark), c_size_t]),
     "focal_detection_landmark_count": (c_uint32, [P(focal_detection)]),
     "focal_detection_get_landmark": (c_int32, [P(focal_detection), c_uint32, P(focal_landmark)]),

@@ -2,7 +2,6 @@
 from __future__ import annotations
 
 import ctypes
-import operator
 import os
 from dataclasses import dataclass
 from typing import Any, Iterator, Mapping, Sequence
@@ -15,7 +14,7 @@ from ._library import call, create, library
 from ._mesh import Mesh
 from ._skeleton import Skeleton, skeleton_params
 from ._task import Progress, Task, run
-from ._values import SurfacePoint, as_dict, choice, floats, new, path_text, point_of, real
+from ._values import SurfacePoint, as_dict, choice, floats, new, numbered, path_text, point_of, real
 
 
 @dataclass(frozen=True)
@@ -101,22 +100,7 @@ class Detection(Handle):
     def __getitem__(self, which: str | int) -> Landmark:
         """By name or number. KeyError, IndexError."""
         landmarks = self.landmarks
-        return landmarks[self._index(which, landmarks)]
-
-    def _index(self, which: str | int, landmarks: list[Landmark] | None = None) -> int:
-        landmarks = self.landmarks if landmarks is None else landmarks
-        if isinstance(which, str):
-            for index, landmark in enumerate(landmarks):
-                if landmark.name == which:
-                    return index
-            raise KeyError(which)
-        try:
-            number = operator.index(which)
-        except TypeError:
-            raise TypeError(f"a landmark is told by name or number, not {type(which).__name__}") from None
-        if not -len(landmarks) <= number < len(landmarks):
-            raise IndexError(f"there are {len(landmarks)} landmarks, there is no number {number}")
-        return number % len(landmarks)
+        return landmarks[numbered(which, [landmark.name for landmark in landmarks])]
 
     @property
     def info(self) -> dict[str, Any]:
@@ -159,7 +143,8 @@ class Detection(Handle):
 
     def _per_vertex(self, getter: str, landmark: str | int, *arguments: Any) -> Any:
         room = empty("f", self.info["vertex_count"])
-        call(getter, self._handle, self._index(landmark), *arguments, room.rows, room.pointer)
+        index = numbered(landmark, [one.name for one in self.landmarks])
+        call(getter, self._handle, index, *arguments, room.rows, room.pointer)
         return result(room.owner)
 
     def segment(self, method: _abi.Segmentation | str = "auto", *, task: Task | None = None,

@@ -4,20 +4,28 @@ from __future__ import annotations
 import ctypes
 import operator
 import os
-from typing import Any, Union
+from typing import Any, NamedTuple, Union
 
 from . import _abi
-from ._arrays import block_of, copied
+from ._arrays import block_of, copied, empty, result
 from ._context import Context, context_or_default
 from ._handle import Handle
-from ._library import call, create, last_error, library
-from ._task import Task, run
-from ._values import SurfacePoint, as_dict, fill, integer, new, path_text, point_of, real
+from ._library import call, create, descriptors, distances, last_error, library
+from ._task import Progress, Task, run
+from ._values import SurfacePoint, as_dict, fill, floats, integer, listed, new, path_text, point_of, real
 
 Mark = Union[int, SurfacePoint, None]
 
 NO_VERTEX = _abi.FOCAL_NO_VERTEX
 NO_TRIANGLE = _abi.FOCAL_NO_TRIANGLE
+
+
+class SymmetryPlane(NamedTuple):
+    """{x: normal . x = offset}; the sign of the normal carries no meaning."""
+
+    normal: tuple[float, float, float]  # of length 1
+    offset: float                       # in the mesh's units
+    support: float                      # 0..1: share of the surface whose mirror image lies on it
 
 
 class Mesh(Handle):
@@ -152,6 +160,37 @@ class Mesh(Handle):
         given, position = surface_point(point, "point"), (ctypes.c_float * 3)()
         call("focal_mesh_position_of", self._handle, ctypes.byref(given), position)
         return tuple(position)  # type: ignore[return-value]
+
+    def describe(self, vertices: Any, descriptor: _abi.Descriptor | str | int = "si-hks", *,
+                 context: Context | None = None, task: Task | None = None, on_progress: Progress | None = None) -> Any:
+        """(len(vertices), n) floats: what describes the surroundings of these vertices, by a name of
+        focal.descriptors(). Error: INVALID_LANDMARK (no such vertex, or no triangle uses it); Cancelled."""
+        chosen = listed(descriptor, descriptors(), "descriptor")
+        wanted, handle, running = block_of(vertices, "vertices", "I", 1), self._handle, context_or_default(context)
+        width = library().focal_descriptor_dimension(chosen)
+        room = empty("f", wanted.rows * width)
+        run(lambda task_handle: call("focal_mesh_describe", running._handle, handle, chosen, wanted.pointer,
+                                     wanted.rows, task_handle, room.pointer), task, on_progress)
+        return result(room.owner, width)
+
+    def distances(self, source: Mark, distance: _abi.Distance | str | int = "heat", *, context: Context | None = None,
+                  task: Task | None = None, on_progress: Progress | None = None) -> Any:
+        """(vertex_count,) floats: from a vertex number or a SurfacePoint, by a name of focal.distances(); infinite
+        where no triangle uses the vertex. Error: INVALID_LANDMARK; Cancelled."""
+        chosen, running = listed(distance, distances(), "distance"), context_or_default(context)
+        place, handle, room = marked_point(self, source, "source"), self._handle, empty("f", self.vertex_count)
+        run(lambda task_handle: call("focal_mesh_distances", running._handle, handle, chosen, ctypes.byref(place),
+                                     task_handle, room.rows, room.pointer), task, on_progress)
+        return result(room.owner)
+
+    def symmetry_plane(self, *, seed: int = 0, context: Context | None = None, task: Task | None = None,
+                       on_progress: Progress | None = None) -> SymmetryPlane:
+        """The plane that mirrors most of the surface onto itself. Cancelled."""
+        plane, handle, running = new(_abi.focal_symmetry_plane), self._handle, context_or_default(context)
+        number = integer(seed, "seed", ctypes.c_uint64)
+        run(lambda task_handle: call("focal_mesh_symmetry_plane", running._handle, handle, number, task_handle,
+                                     ctypes.byref(plane)), task, on_progress)
+        return SymmetryPlane(floats(plane.normal), plane.offset, plane.support)
 
     def point_at_vertex(self, vertex: int) -> SurfacePoint:
         """The surface point at a vertex. Error with Status.INVALID_LANDMARK when no triangle uses it."""

@@ -6,6 +6,7 @@ import os
 from typing import Any, Mapping
 
 from . import _abi
+from ._arrays import empty, result
 from ._context import Context, context_or_default
 from ._detection import Detection
 from ._handle import Handle, handle_of
@@ -13,7 +14,7 @@ from ._library import call, create, descriptors, distances, library
 from ._mesh import Mark, Mesh, bytes_of, marked_point
 from ._task import Progress, Task, run
 from ._training_set import TrainingSet
-from ._values import as_dict, choice, fill, listed, new, path_text
+from ._values import as_dict, choice, fill, listed, new, numbered, path_text
 
 
 class Model(Handle):
@@ -169,6 +170,19 @@ class Model(Handle):
             return found
 
         return run(detect, task, on_progress)
+
+    def regress(self, analysis: Analysis, landmark: str | int, truth: Mark, *, task: Task | None = None,
+                on_progress: Progress | None = None) -> tuple[Any, Any]:
+        """What the regression makes of an analysis: for each sample point the distance to the landmark that follows
+        from its descriptor, and the true one to `truth`, a vertex number or a SurfacePoint. In units of
+        sqrt(surface area); preset paper: shares of the sample's largest distance."""
+        given, handle = handle_of(analysis, Analysis, "analysis"), self._handle
+        index, place = numbered(landmark, self.landmark_names), marked_point(analysis._mesh, truth, "truth")
+        count = library().focal_analysis_sample_count(given)
+        told, true = empty("f", count), empty("f", count)
+        run(lambda task_handle: call("focal_model_regress", handle, given, index, ctypes.byref(place), task_handle,
+                                     count, told.pointer, true.pointer), task, on_progress)
+        return result(told.owner), result(true.owner)
 
     def _fixed(self, fixed: Mapping[str, Mark], mesh: Mesh) -> Any:
         names = self.landmark_names

@@ -87,6 +87,21 @@ def listed(value: Any, names: list[str], name: str) -> int | None:
     return names.index(value)
 
 
+def numbered(which: Any, names: list[str]) -> int:
+    """The number of a landmark told by name or number, from the end too. KeyError, IndexError."""
+    if isinstance(which, str):
+        if which not in names:
+            raise KeyError(which)
+        return names.index(which)
+    try:
+        number = operator.index(which)
+    except TypeError:
+        raise TypeError(f"a landmark is told by name or number, not {type(which).__name__}") from None
+    if not -len(names) <= number < len(names):
+        raise IndexError(f"there are {len(names)} landmarks, there is no number {number}")
+    return number % len(names)
+
+
 def new(kind: type) -> Any:
     """A struct with its struct_size and defaults."""
     struct = kind()
