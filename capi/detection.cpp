@@ -198,7 +198,6 @@ focal_status focal_model_analyse(const focal_model* model, const focal_mesh* mes
     object->analysis =
         analyse_to_keep(call.model->info.params, object->mesh->mesh, call.params, call.execution, note);
     if (!note.empty()) call.model->context->report(FOCAL_LOG_WARNING, note);
-    call.execution.begin_stage("done", 1, 1);
     *out_analysis = publish(object);
   });
 }

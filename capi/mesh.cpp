@@ -151,7 +151,6 @@ void finish(MeshObject& object, TriangleMesh source, const focal_mesh_params& pa
   object.surface_area = mesh->scale * mesh->scale * surface_area(mesh->surface);
   object.warnings.insert(object.warnings.end(), mesh->warnings.begin(), mesh->warnings.end());
   object.mesh = std::move(mesh);
-  execution.begin_stage("done", 1, 1);
   object.repair_seconds = watch.lap();
 }
 

@@ -23,7 +23,9 @@ TaskLease::TaskLease(focal_task* handle) {
 }
 
 TaskLease::~TaskLease() {
-  if (object_) object_->busy = false;
+  if (!object_) return;
+  if (std::uncaught_exceptions() == exceptions_) object_->task.begin_stage("done", 1, 1);
+  object_->busy = false;
 }
 
 }  // namespace focal

@@ -1,6 +1,7 @@
 // focal_task: progress and cancellation of one call at a time.
 #pragma once
 #include <atomic>
+#include <exception>
 #include <memory>
 
 #include "base/task.h"
@@ -16,7 +17,7 @@ struct TaskObject {
   std::atomic<bool> busy{false};
 };
 
-// Holds the caller's task, which may be NULL, for one call.
+// Holds the caller's task, which may be NULL, for one call. Unless an exception ends it, the task says then that all is done.
 class TaskLease {
  public:
   // Throws invalid_handle; invalid_argument when another call has it; cancelled when it was cancelled before.
@@ -29,6 +30,7 @@ class TaskLease {
 
  private:
   std::shared_ptr<TaskObject> object_;
+  int exceptions_ = std::uncaught_exceptions();
 };
 
 }  // namespace focal

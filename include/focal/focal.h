@@ -164,7 +164,8 @@ FOCAL_API focal_status focal_task_cancel(focal_task* task);
 /* Back to progress 0, not cancelled. INVALID_ARGUMENT while a call runs with it. */
 FOCAL_API focal_status focal_task_reset(focal_task* task);
 
-FOCAL_API double focal_task_progress(const focal_task* task); /* 0..1, never falls during a call */
+FOCAL_API double focal_task_progress(
+    const focal_task* task); /* 0..1, never falls; 1 after a call that went well */
 FOCAL_API const char* focal_task_stage(
     const focal_task* task); /* "spectrum", ..., "" before; lives for ever */
 FOCAL_API int32_t focal_task_is_cancelled(const focal_task* task); /* 0 or 1 */

@@ -2,11 +2,14 @@
 #include "experiment.h"
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <thread>
 
 #include "picture/surface.h"
 
@@ -82,6 +85,26 @@ void add_surface(const focal::Mesh& mesh, picture::Figure& figure) {
     figure.triangles.push_back({t[i], t[i + 1], t[i + 2]});
 }
 
+// Looks at a task on a thread of its own, as a progress bar does.
+class StageClock {
+ public:
+  StageClock(const focal::Task& task, StageSeconds& seconds)
+      : thread_([this, &task, &seconds] {
+          for (auto last = Clock::now(); !done_;) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+            const auto now = Clock::now();
+            seconds[task.stage()] += std::chrono::duration<double>(now - last).count();
+            last = now;
+          }
+        }) {}
+  ~StageClock() { done_ = true, thread_.join(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::atomic<bool> done_{false};
+  std::thread thread_;
+};
+
 }  // namespace
 
 Set load_set(const focal::Context& context, const std::string& folder, size_t train, size_t test) {
@@ -103,7 +126,8 @@ Set load_set(const focal::Context& context, const std::string& folder, size_t tr
   return set;
 }
 
-focal::Model learn(const focal::Context& context, const Set& set, const Recipe& recipe) {
+focal::Model learn(const focal::Context& context, const Set& set, const Recipe& recipe,
+                   StageSeconds* seconds) {
   const auto& landmarks = recipe.landmarks.empty() ? set.landmarks : recipe.landmarks;
   focal::TrainingSet training(context, landmarks);
   for (size_t i = 0; i < std::min(recipe.meshes, set.train.size()); ++i) {
@@ -122,7 +146,10 @@ focal::Model learn(const focal::Context& context, const Set& set, const Recipe& 
   params.learn_confidence = 0;  // which places are found does not hang on it
   if (recipe.sampling_rate > 0) params.sampling_rate = recipe.sampling_rate;
   if (recipe.trees > 0) params.tree_count = recipe.trees;
-  return focal::Model(training, &params);
+  if (!seconds) return focal::Model(training, &params);
+  focal::Task task;
+  const StageClock clock(task, *seconds);
+  return focal::Model(training, &params, &task);
 }
 
 picture::Point place_of(const Marked& marked, const std::string& landmark) {

@@ -39,7 +39,11 @@ struct Recipe {
   int32_t trees = 0;
 };
 
-focal::Model learn(const focal::Context& context, const Set& set, const Recipe& recipe);
+using StageSeconds = std::map<std::string, double>;  // by focal_task_stage
+
+// seconds: how long each stage took, to some milliseconds.
+focal::Model learn(const focal::Context& context, const Set& set, const Recipe& recipe,
+                   StageSeconds* seconds = nullptr);
 
 struct Question {
   std::string landmark;

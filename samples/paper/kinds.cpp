@@ -76,14 +76,33 @@ Kinds kinds_of(const std::string& set, const std::vector<std::string>& landmarks
   return found == listed().end() ? Kinds{{}, landmarks, {}} : found->second;
 }
 
+namespace {
+
+template <class Row>
+const Row* row_of(const std::map<std::string, Row>& table, const std::string& set) {
+  const auto found = table.find(set);
+  return found == table.end() ? nullptr : &found->second;
+}
+
+}  // namespace
+
 const PaperErrors* paper_errors_of(const std::string& set) {
   static const std::map<std::string, PaperErrors> table = {{"scape", {2.46, 2.57, 2.14, 2.46}},
                                                            {"lion", {2.85, 3.09, 4.16, 3.04}},
                                                            {"teddy", {3.79, 4.67, 4.21, 4.12}},
                                                            {"ant", {4.01, -1, 4.92, 4.27}},
                                                            {"hand", {3.24, 4.82, -1, 3.87}}};
-  const auto found = table.find(set);
-  return found == table.end() ? nullptr : &found->second;
+  return row_of(table, set);
+}
+
+const PaperSeconds* paper_seconds_of(const std::string& set) {
+  static const std::map<std::string, PaperSeconds> table = {
+      {"scape", {9.56, 8.31, 66.12, 3.82, 3.09, 0.03, 1.33}},
+      {"lion", {3.70, 0.85, 13.45, 1.51, 0.34, 0.03, 0.48}},
+      {"teddy", {9.49, 10.63, 68.10, 3.81, 4.34, 0.03, 1.19}},
+      {"ant", {6.42, 3.32, 26.63, 2.52, 1.27, 0.02, 0.74}},
+      {"hand", {6.71, 3.69, 21.59, 2.64, 1.49, 0.02, 0.86}}};
+  return row_of(table, set);
 }
 
 }  // namespace paper

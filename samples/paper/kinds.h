@@ -21,4 +21,10 @@ struct PaperErrors {
 };
 const PaperErrors* paper_errors_of(const std::string& set);
 
+struct PaperSeconds {                      // Table 1
+  double descriptors, geodesics, forests;  // of training; the first two a shape
+  double descriptors_of_test, geodesics_of_test, forest_of_test, voting;
+};
+const PaperSeconds* paper_seconds_of(const std::string& set);
+
 }  // namespace paper

@@ -1,16 +1,11 @@
 #include "study.h"
 
-#include <chrono>
-
 namespace paper {
 
 Study::Study(const focal::Context& running, Set given, bool is_quick)
     : context(running), set(std::move(given)), quick(is_quick) {
   for (const focal_preset preset : kPresets) {
-    const auto start = std::chrono::steady_clock::now();
-    models.push_back(learn(context, set, {.preset = preset}));
-    training_seconds[place(preset)] =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    models.push_back(learn(context, set, {.preset = preset}, &training_seconds[place(preset)]));
     detections.emplace_back();
     for (const Marked& shape : set.test) detections.back().push_back(detect(models.back(), shape.mesh));
   }

@@ -13,7 +13,7 @@ struct Study {
   const focal::Context& context;
   Set set;
   bool quick;
-  double training_seconds[2] = {};
+  StageSeconds training_seconds[2];                       // by preset
   std::vector<focal::Model> models;                       // by preset
   std::vector<std::vector<focal::Detection>> detections;  // by preset, then test shape
 

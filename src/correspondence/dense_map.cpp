@@ -136,7 +136,6 @@ DenseMap dense_map(const Detection& from, const Detection& to, const Execution& 
   for (size_t v = 0; v < result.point.size(); ++v)
     if (const int32_t at = from.mesh->surface_vertex[v]; at >= 0)
       result.point[v] = to_source(*to.mesh, points[at]);
-  execution.begin_stage("done", 1, 1);
   return result;
 }
 

@@ -303,7 +303,6 @@ CharacterRig rig_by_template(const SkeletonTemplate& skeleton, const Detection& 
   for (Joint& joint : joints) joint.bind.topRightCorner<3, 1>() = to_caller(place_of(joint));
   for (Vector3& tip : result.tip) tip = to_caller(tip);
   result.rest = rest_of(skeleton, joints);
-  execution.begin_stage("done", 1, 1);
   return result;
 }
 

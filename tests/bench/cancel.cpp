@@ -191,6 +191,11 @@ std::vector<std::pair<std::string, Call>> measuring_calls(const Subjects& s) {
       std::vector<float> values(s.body.vertex_count);
       return focal_mesh_distances(s.context, s.mesh, d, &source, task, values.size(), values.data());
     });
+  calls.emplace_back("symmetry plane", [&s](focal_task* task) {
+    focal_symmetry_plane plane;
+    insist(focal_symmetry_plane_init(&plane, sizeof plane));
+    return focal_mesh_symmetry_plane(s.context, s.mesh, 1, task, &plane);
+  });
   return calls;
 }
 
@@ -204,7 +209,7 @@ double run_whole(const Call& call, double most) {
   insist(focal_task_create(&task));
   const auto start = Clock::now();
   std::thread stopper([&] {
-    while (focal_task_progress(task) < 1 &&
+    while (focal_task_progress(task) < 1 && !focal_task_is_cancelled(task) &&
            std::chrono::duration<double>(Clock::now() - start).count() < most)
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     focal_task_cancel(task);

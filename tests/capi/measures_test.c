@@ -114,7 +114,15 @@ static void check_measures(focal_mesh* mesh, const shape* truth) {
   CHECK_REFUSED(focal_mesh_distances(context, mesh, 0, &point, NULL, 3, near), FOCAL_ERROR_INVALID_ARGUMENT,
                 "vertex_count is 3");
   CHECK_OK(focal_symmetry_plane_init(&plane, sizeof plane));
-  CHECK_OK(focal_mesh_symmetry_plane(context, mesh, 1, NULL, &plane));
+  focal_task* task = NULL;
+  CHECK_OK(focal_task_create(&task));
+  CHECK_OK(focal_mesh_symmetry_plane(context, mesh, 1, task, &plane));
+  CHECK(focal_task_progress(task) == 1 && strcmp(focal_task_stage(task), "done") == 0);
+  CHECK_OK(focal_task_cancel(task));
+  CHECK_REFUSED(focal_mesh_symmetry_plane(context, mesh, 1, task, &plane), FOCAL_ERROR_CANCELLED,
+                "cancelled");
+  CHECK(focal_task_progress(task) < 1 || strcmp(focal_task_stage(task), "done") != 0);
+  CHECK_OK(focal_task_destroy(task));
   double length = 0;
   for (int k = 0; k < 3; ++k) length += plane.normal[k] * plane.normal[k];
   CHECK(fabs(length - 1) < 1e-5 && plane.support > 0.3 && plane.support <= 1);
