@@ -34,6 +34,14 @@ void check_index(uint64_t index, uint64_t count, const char* owner, const char* 
               "count from 0");
 }
 
+void check_count(const char* name, uint64_t given, uint64_t wanted, const char* owner, const char* things) {
+  if (given == wanted) return;
+  throw Error(Status::invalid_argument,
+              std::string(name) + " is " + std::to_string(given) + ", " + owner + " has " +
+                  std::to_string(wanted) + " " + things,
+              std::string("pass a block with an entry for each of the ") + things);
+}
+
 const char* text_at(const std::vector<std::string>& texts, uint64_t index, const char* owner,
                     const char* things) {
   check_index(index, texts.size(), owner, things);

@@ -36,6 +36,8 @@ std::span<const std::byte> bytes_of(const void* data, uint64_t size);
 
 // Throws invalid_argument: "OWNER has 3 THINGS, not a number 7".
 void check_index(uint64_t index, uint64_t count, const char* owner, const char* things);
+// Throws invalid_argument: "vertex_count is 3, the mesh has 7 vertices".
+void check_count(const char* name, uint64_t given, uint64_t wanted, const char* owner, const char* things);
 const char* text_at(const std::vector<std::string>& texts, uint64_t index, const char* owner,
                     const char* things);
 

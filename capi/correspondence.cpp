@@ -13,13 +13,8 @@
 namespace focal {
 namespace {
 
-void check_count(const char* name, uint64_t count, const MeshObject& mesh) {
-  const auto vertices = static_cast<uint64_t>(mesh.mesh->source.vertex_count());
-  if (count != vertices)
-    throw Error(Status::invalid_argument,
-                std::string(name) + " is " + std::to_string(count) + ", the mesh has " +
-                    std::to_string(vertices) + " vertices",
-                "pass one entry for each vertex of the mesh");
+void check_vertices(const char* name, uint64_t count, const MeshObject& mesh) {
+  check_count(name, count, static_cast<uint64_t>(mesh.mesh->source.vertex_count()), "the mesh", "vertices");
 }
 
 }  // namespace
@@ -51,7 +46,7 @@ focal_status focal_correspondence_points(const focal_correspondence* corresponde
   return guarded([&] {
     require(out_points, "out_points");
     const auto object = resolve<CorrespondenceObject>(correspondence);
-    check_count("vertex_count", vertex_count, *object->from);
+    check_vertices("vertex_count", vertex_count, *object->from);
     for (size_t v = 0; v < object->map.point.size(); ++v) out_points[v] = point_out(object->map.point[v]);
   });
 }
@@ -63,8 +58,8 @@ focal_status focal_correspondence_carry(const focal_correspondence* corresponden
     require(target_values, "target_values");
     require(out_values, "out_values");
     const auto object = resolve<CorrespondenceObject>(correspondence);
-    check_count("target_vertex_count", target_vertex_count, *object->to);
-    check_count("vertex_count", vertex_count, *object->from);
+    check_vertices("target_vertex_count", target_vertex_count, *object->to);
+    check_vertices("vertex_count", vertex_count, *object->from);
     const Eigen::Map<const RowMatrixf> values(target_values, static_cast<Eigen::Index>(target_vertex_count),
                                               1);
     const RowMatrixf carried = pulled_back(object->map, *object->to->mesh, values);

@@ -102,11 +102,7 @@ focal_status focal_detection_votes(const focal_detection* detection, uint32_t in
     const auto object = resolve<DetectionObject>(detection);
     const auto& surface_vertex = object->mesh->mesh->surface_vertex;
     check_index(index, object->detection.landmarks.size(), "the detection", "landmarks");
-    if (vertex_count != surface_vertex.size())
-      throw Error(Status::invalid_argument,
-                  "vertex_count is " + std::to_string(vertex_count) + ", the mesh has " +
-                      std::to_string(surface_vertex.size()) + " vertices",
-                  "pass room for one float for each vertex of the mesh");
+    check_count("vertex_count", vertex_count, surface_vertex.size(), "the mesh", "vertices");
     const auto votes = object->full_votes().row(index);
     for (size_t v = 0; v < surface_vertex.size(); ++v)
       out_votes[v] = surface_vertex[v] < 0 ? 0 : votes(surface_vertex[v]);

@@ -66,14 +66,6 @@ std::vector<float> measure(const PreparedMesh& mesh, const DistanceKind& kind, c
   return result;
 }
 
-void check_count(uint64_t given, uint64_t wanted, const char* what, const char* whose) {
-  if (given != wanted)
-    throw Error(
-        Status::invalid_argument,
-        std::string(what) + " is " + std::to_string(given) + ", " + whose + " has " + std::to_string(wanted),
-        "pass room for all of them");
-}
-
 }  // namespace
 }  // namespace focal
 
@@ -126,7 +118,7 @@ focal_status focal_mesh_distances(const focal_context* context, const focal_mesh
     const auto running = resolve<ContextObject>(context);
     const auto object = resolve<MeshObject>(mesh);
     const DistanceKind& kind = distance_at(distance);
-    check_count(vertex_count, object->mesh->surface_vertex.size(), "vertex_count", "the mesh");
+    check_count("vertex_count", vertex_count, object->mesh->surface_vertex.size(), "the mesh", "vertices");
     const SurfacePoint place = point_in(*object->mesh, *source, "the source");
     const TaskLease lease(task);
     const auto distances = measure(*object->mesh, kind, place, running->execution_with(lease.task()));
@@ -141,6 +133,7 @@ focal_status focal_symmetry_plane_init(focal_symmetry_plane* plane, size_t struc
 focal_status focal_mesh_symmetry_plane(const focal_context* context, const focal_mesh* mesh, uint64_t seed,
                                        focal_task* task, focal_symmetry_plane* out_plane) {
   return guarded([&] {
+    check_result(out_plane);
     const auto running = resolve<ContextObject>(context);
     const PreparedMesh& prepared = *resolve<MeshObject>(mesh)->mesh;
     const TaskLease lease(task);
@@ -170,7 +163,7 @@ focal_status focal_model_regress(const focal_model* model, const focal_analysis*
     const auto object = resolve<ModelObject>(model);
     const auto analysed = resolve<AnalysisObject>(analysis);
     check_index(index, object->info.landmark_names.size(), "the model", "landmarks");
-    check_count(sample_count, analysed->analysis.samples.size(), "sample_count", "the analysis");
+    check_count("sample_count", sample_count, analysed->analysis.samples.size(), "the analysis", "samples");
     const SurfacePoint place = point_in(*analysed->mesh->mesh, *truth, "the truth");
     const TaskLease lease(task);
     const Execution execution = object->context->execution_with(lease.task());

@@ -16,12 +16,8 @@ constexpr double largest_radius = 1e6;  // of sqrt(area): everything
 std::vector<float> distances_of(const DetectionObject& object, uint32_t index, uint64_t vertex_count) {
   const auto& landmarks = object.detection.landmarks;
   check_index(index, landmarks.size(), "the detection", "landmarks");
-  const auto vertices = static_cast<uint64_t>(object.mesh->mesh->source.vertex_count());
-  if (vertex_count != vertices)
-    throw Error(Status::invalid_argument,
-                "vertex_count is " + std::to_string(vertex_count) + ", the mesh has " +
-                    std::to_string(vertices) + " vertices",
-                "pass room for one float for each vertex of the mesh");
+  check_count("vertex_count", vertex_count, static_cast<uint64_t>(object.mesh->mesh->source.vertex_count()),
+              "the mesh", "vertices");
   if (landmarks[index].source_point.triangle < 0)
     throw Error(Status::invalid_landmark,
                 "landmark \"" + object.model->info.landmark_names[index] + "\" has no place on this mesh",

@@ -63,12 +63,8 @@ focal_status focal_detection_segment(const focal_detection* detection, focal_seg
   return guarded([&] {
     require(out_labels, "out_labels");
     const auto object = resolve<DetectionObject>(detection);
-    const auto triangles = static_cast<uint64_t>(object->mesh->mesh->source.triangle_count());
-    if (triangle_count != triangles)
-      throw Error(Status::invalid_argument,
-                  "triangle_count is " + std::to_string(triangle_count) + ", the mesh has " +
-                      std::to_string(triangles) + " triangles",
-                  "pass room for one label for each triangle of the mesh");
+    check_count("triangle_count", triangle_count,
+                static_cast<uint64_t>(object->mesh->mesh->source.triangle_count()), "the mesh", "triangles");
     const TaskLease lease(task);
     const Execution execution = object->model->context->execution_with(lease.task());
     execution.check_cancelled();

@@ -205,11 +205,7 @@ focal_status focal_skeleton_weights(const focal_skeleton* skeleton, uint64_t ver
     require(out_weights, "out_weights");
     const auto object = resolve<SkeletonObject>(skeleton);
     const auto& influences = object->rig.rig.influences;
-    if (vertex_count != influences.size())
-      throw Error(Status::invalid_argument,
-                  "vertex_count is " + std::to_string(vertex_count) + ", the mesh has " +
-                      std::to_string(influences.size()) + " vertices",
-                  "pass room for four joints and weights for each vertex of the mesh");
+    check_count("vertex_count", vertex_count, influences.size(), "the mesh", "vertices");
     for (size_t v = 0; v < influences.size(); ++v)
       for (size_t i = 0; i < influences[v].size(); ++i) {
         out_joints[4 * v + i] = static_cast<uint32_t>(influences[v][i].joint);

@@ -71,11 +71,15 @@ T read_struct(const T* given) {
   return value;
 }
 
-// Results: fills what the caller has room for.
+// Results: fills what the caller has room for; looked at first where the result takes long.
 template <class T>
-void write_result(T* out, const T& value) {
+void check_result(const T* out) {
   require_struct(out);
   check_struct_size<T>(out->struct_size);
+}
+template <class T>
+void write_result(T* out, const T& value) {
+  check_result(out);
   write_struct(out, out->struct_size, value);
 }
 

@@ -55,8 +55,7 @@ Json process(const Context& context, const focal_model* model, const fs::path& f
   const auto detection = owned<Detection>(focal_model_detect, model, mesh.get(), &params, task);
   if (options.rig) {
     const auto skeleton = owned<Skeleton>(focal_skeleton_create, detection.get(),
-                                          static_cast<const focal_skeleton_params*>(nullptr),
-                                          static_cast<focal_task*>(nullptr));
+                                          static_cast<const focal_skeleton_params*>(nullptr), task);
     check(focal_skeleton_write_gltf(skeleton.get(), target.string().c_str()));
   } else {
     check(focal_detection_write_gltf(detection.get(), target.string().c_str()));
@@ -95,6 +94,7 @@ void batch(const Options& options) {
       try {
         entry.update(process(context, model.get(), files[i], target, options, task));
       } catch (const CommandError& problem) {
+        if (focal_task_is_cancelled(task)) throw CommandError("cancelled", "run it again to go on");
         entry["status"] = "failed", entry["error"] = problem.what(), entry["hint"] = problem.hint, ++failed;
       }
     }
@@ -111,6 +111,9 @@ void batch(const Options& options) {
     std::cout << files.size() - failed - kept << " done, " << kept << " there already, " << failed
               << " failed\n";
   }
+  if (failed > 0)
+    throw CommandError(std::to_string(failed) + " of " + std::to_string(files.size()) + " meshes failed",
+                       "the others are done; run it again after mending those");
 }
 
 }  // namespace

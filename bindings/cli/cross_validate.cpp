@@ -140,16 +140,8 @@ void add_cross_validate(CLI::App& app) {
                    "Parts to leave out in turn; without it one mesh each, at most 10 parts")
       ->type_name("K")
       ->check(CLI::Range(2, 1000000).description(""));
-  verb->add_option("--split", options->split, "Meshes to use: train, test, extra or all")
-      ->type_name("NAME")
-      ->capture_default_str();
-  verb->add_option("--limit", options->limit, "Only the first N meshes")
-      ->type_name("N")
-      ->check(CLI::Range(1, 1000000000).description(""));
-  verb->add_option("--subset", options->subset, "Count only these landmarks")
-      ->type_name("NAME,NAME,...")
-      ->delimiter(',')
-      ->allow_extra_args(false);
+  add_split_options(*verb, options->split, options->limit, "Meshes to use");
+  add_subset_option(*verb, options->subset);
   add_train_options(*verb, *options);
   add_quality_option(*verb, options->quality);
   add_lenient_option(*verb, *options);

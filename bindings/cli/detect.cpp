@@ -18,14 +18,6 @@ struct Options : CommonOptions {
   focal_quality quality = FOCAL_QUALITY_BEST;
 };
 
-const char* status_name(focal_landmark_status status) {
-  return status == FOCAL_LANDMARK_FOUND       ? "found"
-         : status == FOCAL_LANDMARK_UNCERTAIN ? "uncertain"
-                                              : "absent";
-}
-
-Json triple(const float* values) { return {tidy(values[0]), tidy(values[1]), tidy(values[2])}; }
-
 // Null where the detector has no place at all to offer.
 void add_place(Json& out, const focal_surface_point& point, uint32_t vertex, const float* position) {
   const bool placed = point.triangle != FOCAL_NO_TRIANGLE;

@@ -105,16 +105,8 @@ void add_eval(CLI::App& app) {
   verb->add_option("SET", options->set, "Folder with set.json, NAME.glb and NAME.landmarks.json")
       ->type_name("")
       ->required();
-  verb->add_option("--split", options->split, "Meshes to measure on: train, test, extra or all")
-      ->type_name("NAME")
-      ->capture_default_str();
-  verb->add_option("--limit", options->limit, "Only the first N meshes")
-      ->type_name("N")
-      ->check(CLI::Range(1, 1000000000).description(""));
-  verb->add_option("--subset", options->subset, "Count only these landmarks")
-      ->type_name("NAME,NAME,...")
-      ->delimiter(',')
-      ->allow_extra_args(false);
+  add_split_options(*verb, options->split, options->limit, "Meshes to measure on");
+  add_subset_option(*verb, options->subset);
   verb->add_option("--report", options->report,
                    "Page to write: meshes to turn with marks and vote maps, tables, curves; opens offline")
       ->type_name("OUT.html");

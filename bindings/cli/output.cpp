@@ -5,8 +5,17 @@
 #include <iostream>
 
 #include "command_error.h"
+#include "landmark_text.h"
 
 namespace focal_cli {
+
+Json triple(const float* values) { return {tidy(values[0]), tidy(values[1]), tidy(values[2])}; }
+
+const char* status_name(focal_landmark_status status) {
+  return status == FOCAL_LANDMARK_FOUND       ? "found"
+         : status == FOCAL_LANDMARK_UNCERTAIN ? "uncertain"
+                                              : "absent";
+}
 
 void print_json(const Json& document) {
   // Text that came from files may not be UTF-8; a broken name must not break the document.

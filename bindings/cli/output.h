@@ -1,11 +1,16 @@
 // What a verb says on stdout, and where it may write.
 #pragma once
+#include <focal/focal.h>
+
 #include <nlohmann/json.hpp>
 #include <string>
 
 namespace focal_cli {
 
 using Json = nlohmann::ordered_json;
+
+Json triple(const float* values);  // each with its own shortest digits
+const char* status_name(focal_landmark_status status);
 
 void print_json(const Json& document);
 

@@ -55,6 +55,22 @@ focal_train_params train_params_of(const TrainOptions& options, const CommonOpti
   return params;
 }
 
+void add_split_options(CLI::App& verb, std::string& split, size_t& limit, const std::string& what) {
+  verb.add_option("--split", split, what + ": train, test, extra or all")
+      ->type_name("NAME")
+      ->capture_default_str();
+  verb.add_option("--limit", limit, "Only the first N meshes")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000000000).description(""));
+}
+
+void add_subset_option(CLI::App& verb, std::vector<std::string>& subset) {
+  verb.add_option("--subset", subset, "Count only these landmarks")
+      ->type_name("NAME,NAME,...")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+}
+
 void add_quality_option(CLI::App& verb, focal_quality& quality) {
   add_choice(verb, "--quality", quality, "best: with the slower refinements; interactive: for a viewport",
              "best|interactive", {{"best", FOCAL_QUALITY_BEST}, {"interactive", FOCAL_QUALITY_INTERACTIVE}});

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "options.h"
 
@@ -18,6 +19,10 @@ struct TrainOptions {
 
 void add_train_options(CLI::App& verb, TrainOptions& options);
 focal_train_params train_params_of(const TrainOptions& options, const CommonOptions& common);
+
+// Which meshes of a set are taken, and which landmarks are counted.
+void add_split_options(CLI::App& verb, std::string& split, size_t& limit, const std::string& what);
+void add_subset_option(CLI::App& verb, std::vector<std::string>& subset);
 
 // The knobs of detection that eval, detect and cross-validate share.
 void add_quality_option(CLI::App& verb, focal_quality& quality);

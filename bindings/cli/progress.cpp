@@ -53,7 +53,7 @@ Progress::~Progress() {
 }
 
 focal_task* Progress::begin(const std::string& what, size_t index, size_t count) {
-  if (interrupted) throw CommandError("cancelled", "nothing was written");
+  if (interrupted) throw CommandError("cancelled", "what was not finished was not written");
   Task task = owned<Task>(focal_task_create);
   const std::lock_guard lock(mutex_);
   task_ = std::move(task);

@@ -13,14 +13,6 @@
 namespace focal_cli {
 namespace {
 
-const char* status_name(focal_landmark_status status) {
-  return status == FOCAL_LANDMARK_FOUND       ? "found"
-         : status == FOCAL_LANDMARK_UNCERTAIN ? "uncertain"
-                                              : "absent";
-}
-
-Json triple(const float* p) { return {tidy(p[0]), tidy(p[1]), tidy(p[2])}; }
-
 Json found_json(const focal_landmark& landmark, double mean_edge) {
   const bool placed = landmark.point.triangle != FOCAL_NO_TRIANGLE;
   return {{"status", status_name(landmark.status)},

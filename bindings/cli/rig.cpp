@@ -83,8 +83,6 @@ Skeleton skeleton_of(const Options& options, const focal_model* model, const foc
   return owned<Skeleton>(focal_skeleton_create, detection, &params, task);
 }
 
-Json triple(const float* values) { return {tidy(values[0]), tidy(values[1]), tidy(values[2])}; }
-
 Json report_of(const focal_skeleton* skeleton, const focal_detection* detection, const Options& options,
                double seconds) {
   auto info = initialised(focal_skeleton_info_init);

@@ -136,11 +136,10 @@ Json shown_mesh_json(const focal_mesh* mesh, const ShownMesh& shown, const focal
   const Box box = box_of(mesh, shown);
   const size_t index_bytes = shown.vertices.size() <= 65536 ? 2 : 4;
   const focal_mesh_info info = info_of(mesh);
-  const auto triple = [](const std::array<float, 3>& p) { return Json{tidy(p[0]), tidy(p[1]), tidy(p[2])}; };
   return {{"vertices", shown.vertices.size()},
           {"decimated", 3 * info.triangle_count > shown.triangles.size()},
-          {"low", triple(box.low)},
-          {"extent", triple(box.extent)},
+          {"low", triple(box.low.data())},
+          {"extent", triple(box.extent.data())},
           {"size", tidy(box.size)},
           {"positions", packed_positions(mesh, shown, box)},
           {"index_bytes", index_bytes},

@@ -126,12 +126,7 @@ void add_train(CLI::App& app) {
                    "weights for 'focal rig', with landmarks that follow from them")
       ->type_name("A.glb B.glb ...");
   verb->add_option("-o,--output", options->output, "Model file to write")->type_name("MODEL")->required();
-  verb->add_option("--split", options->split, "Meshes to learn from: train, test, extra or all")
-      ->type_name("NAME")
-      ->capture_default_str();
-  verb->add_option("--limit", options->limit, "Only the first N meshes")
-      ->type_name("N")
-      ->check(CLI::Range(1, 1000000000).description(""));
+  add_split_options(*verb, options->split, options->limit, "Meshes to learn from");
   add_train_options(*verb, *options);
   add_lenient_option(*verb, *options);
   add_common_options(*verb, *options);

@@ -131,7 +131,7 @@ typedef struct focal_context_params {
   void* parallel_for_user_data;
   /* 0: no budget. Calls on this context, and on what was made with it, fail with OUT_OF_MEMORY rather than let
    * the library hold more than this in the process, for all its contexts together. Not counted: threads' stacks, a GPU's
-   * memory, and what the library's own code takes (a few MB). docs/reliability.md tells what meshes need. */
+   * memory, and what the library's own code takes (a few MB). docs/performance.md tells what detections take. */
   uint64_t memory_budget_bytes;
 } focal_context_params;
 
@@ -315,8 +315,8 @@ FOCAL_API uint32_t focal_descriptor_dimension(focal_descriptor descriptor);
 FOCAL_API uint32_t focal_distance_count(void);
 FOCAL_API const char* focal_distance_name(focal_distance distance);
 
-/* Describes vertices of the surface as it is, as preset paper does, by 200 eigenpairs. out_values: vertex_count x the descriptor's dimension. task may be NULL. Errors: INVALID_ARGUMENT
- * (no such descriptor), INVALID_LANDMARK (no such vertex, or no triangle uses it), NOT_CONVERGED, CANCELLED. */
+/* Describes vertices of the surface as it is, as preset paper does, by 200 eigenpairs. out_values: vertex_count
+ * x the descriptor's dimension. task may be NULL. Errors: INVALID_ARGUMENT (no such descriptor), INVALID_LANDMARK (no such vertex, or no triangle uses it), NOT_CONVERGED, CANCELLED. */
 FOCAL_API focal_status focal_mesh_describe(const focal_context* context, const focal_mesh* mesh,
                                            focal_descriptor descriptor, const uint32_t* vertices,
                                            uint64_t vertex_count, focal_task* task, float* out_values);
@@ -328,9 +328,7 @@ FOCAL_API focal_status focal_mesh_distances(const focal_context* context, const 
                                             focal_distance distance, const focal_surface_point* source,
                                             focal_task* task, uint64_t vertex_count, float* out_distances);
 
-/* The plane that mirrors most of the surface onto itself: {x : normal . x = offset}, by votes of pairs of points
- * that look alike (Mitra, Guibas, Pauly 2006). The sign of the normal carries no meaning. task may be NULL.
- * Errors: CANCELLED. */
+/* {x : normal . x = offset}; the sign of the normal carries no meaning. */
 typedef struct focal_symmetry_plane {
   uint32_t struct_size;
   float normal[3]; /* of length 1 */
@@ -339,6 +337,9 @@ typedef struct focal_symmetry_plane {
 } focal_symmetry_plane;
 
 FOCAL_API focal_status focal_symmetry_plane_init(focal_symmetry_plane* plane, size_t struct_size);
+/* The plane that mirrors most of the surface onto itself, by votes of pairs of points that look alike (Mitra,
+ * Guibas, Pauly 2006). seed: same seed, same bits. out_plane must have been through focal_symmetry_plane_init.
+ * task may be NULL. Errors: CANCELLED. */
 FOCAL_API focal_status focal_mesh_symmetry_plane(const focal_context* context, const focal_mesh* mesh,
                                                  uint64_t seed, focal_task* task,
                                                  focal_symmetry_plane* out_plane);
@@ -388,17 +389,17 @@ typedef struct focal_train_params {
   int32_t tree_count;            /* a forest, 1..10000. Default 30 */
   int32_t min_leaf_samples;      /* 1 or more. Default 5 */
   int32_t components_per_split;  /* random descriptor components tried at each split, 1 or more. Default 5 */
-  double sampling_rate;          /* of the vertices analysed of each training mesh, above 0 to 1. Default 1 */
+  double sampling_rate;          /* of the vertices analysed, above 0 to 1. Default 1; preset paper: 0.5 */
   int32_t max_samples_per_shape; /* 1 or more. Default 6250 */
   /* Meshes with more vertices are analysed on a decimated copy of about so many, here and in detection;
      0: as they are. Default 3500; preset paper: 0 */
   int32_t proxy_vertices;
   uint64_t seed; /* same seed, same bits. Default 0 */
-  /* By leaving shapes out in turn, about two thirds of the time. Default 1; without it every confidence is
+  /* By leaving shapes out in turn, about three quarters of the time. Default 1; without it every confidence is
      about a half, and nothing is told absent. Preset paper has none */
   int32_t learn_confidence;
-  /* Shapes learned of rigged characters in all, copies in other poses included; at least half as many again
-     as there are characters. Default 16 */
+  /* Shapes learned of rigged characters in all, copies in other poses included, 2..10000; at least half as
+     many again as there are characters. Default 16 */
   int32_t rigged_shapes;
   focal_descriptor descriptor; /* kept in the model, detection follows it, as with the next. Default SI_HKS */
   focal_distance distance;     /* UNSUPPORTED in preset default when it is not geodesic. Default HEAT */
@@ -493,7 +494,7 @@ FOCAL_API focal_status focal_model_analyse(const focal_model* model, const focal
                                            focal_analysis** out_analysis);
 FOCAL_API focal_status focal_analysis_destroy(focal_analysis* analysis);
 
-/* Like focal_model_detect, on an analysed mesh: tens of milliseconds. INVALID_ARGUMENT when the analysis
+/* Like focal_model_detect, on an analysed mesh: about 0.1 s. INVALID_ARGUMENT when the analysis
  * was made with other parameters than the model's. */
 FOCAL_API focal_status focal_model_detect_analysis(const focal_model* model, const focal_analysis* analysis,
                                                    const focal_detect_params* params, focal_task* task,

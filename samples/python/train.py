@@ -17,10 +17,14 @@ def marks_of(mesh, path):
     """{name: mark} of a .landmarks.json; a landmark that is not there is absent."""
     marks = {}
     for one in json.loads(path.read_text(encoding="utf-8"))["landmarks"]:
-        if "vertex" in one:
-            marks[one["name"]] = mesh.point_at_vertex(one["vertex"])
-        elif "triangle" in one:
+        if one.get("status") == "absent":
+            continue
+        if "triangle" in one:
             marks[one["name"]] = focal.SurfacePoint(one["triangle"], one["barycentric"])
+        elif "vertex" in one:
+            marks[one["name"]] = mesh.point_at_vertex(one["vertex"])
+        else:
+            sys.exit(f"{path}: {one['name']} has a position only, which this sample does not look up")
     return marks
 
 

@@ -21,7 +21,7 @@ class GreensDistance final : public Distance {
   GreensDistance(const MeasuredSurface& surface, int solves, const Execution& execution)
       : Distance(surface.mesh),
         solves_(solves),
-        factor_(shifted(surface.operators.L, surface.operators)),
+        factor_(shifted(surface.operators.L, surface.operators), execution),
         mass_(surface.operators.mass),
         area_(surface.operators.mass.sum()),
         own_(surface.mesh.vertex_count()) {
@@ -30,7 +30,7 @@ class GreensDistance final : public Distance {
       const auto first = static_cast<int32_t>(block) * lanes, count = std::min(lanes, n - first);
       std::vector<Source> sources;
       for (int32_t v = first; v < first + count; ++v) sources.push_back({{v, v, v}, {1, 0, 0}});
-      const AlignedArray<double> G = columns(sources);
+      const AlignedArray<double> G = columns(sources, execution);
       for (int32_t j = 0; j < count; ++j) own_[first + j] = at(G, first + j, j);
     });
     distance_bound_ = 2 * std::sqrt(std::max(own_.maxCoeff(), 0.0));  // G is positive semi-definite
@@ -52,7 +52,7 @@ class GreensDistance final : public Distance {
   }
 
   // The sources' columns of G.
-  AlignedArray<double> columns(std::span<const Source> sources) const {
+  AlignedArray<double> columns(std::span<const Source> sources, const Execution& execution) const {
     AlignedArray<double> G(static_cast<size_t>(vertex_count()) * lanes);
     std::fill_n(G.data(), G.size(), 0.0);
     for (size_t j = 0; j < sources.size(); ++j)
@@ -62,14 +62,15 @@ class GreensDistance final : public Distance {
       if (solve > 0)
         for (int32_t v = 0; v < vertex_count(); ++v)
           for (int j = 0; j < lanes; ++j) at(G, v, j) *= mass_[v];
+      execution.check_cancelled();
       factor_.solve_block(G.data());
       centre(G, true);
     }
     return G;
   }
 
-  void solve_block(std::span<const Source> sources, float* out, const Execution&) const override {
-    const AlignedArray<double> G = columns(sources);
+  void solve_block(std::span<const Source> sources, float* out, const Execution& execution) const override {
+    const AlignedArray<double> G = columns(sources, execution);
     double own[lanes] = {};
     for (size_t j = 0; j < sources.size(); ++j)
       for (int i = 0; i < 3; ++i) own[j] += sources[j].weight[i] * at(G, sources[j].vertex[i], j);

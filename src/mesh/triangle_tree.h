@@ -1,6 +1,5 @@
 // A hierarchy of boxes round the triangles of a mesh, halved at the median, for meshes that are asked often.
 #pragma once
-#include <Eigen/Geometry>
 #include <limits>
 #include <utility>
 #include <vector>

@@ -50,7 +50,11 @@ Columns random_columns(int64_t n, int blocks, const Execution& execution) {
   Columns X(n, blocks);
   parallel_for(execution, blocks, [&](int64_t b) {
     Random random(0, b);
-    std::generate_n(X.block(static_cast<int>(b)), n * lanes, [&] { return random.uniform() - 0.5; });
+    double* const column = X.block(static_cast<int>(b));
+    for (int64_t i = 0; i < n * lanes; ++i) {
+      if (i % (1 << 20) == 0) execution.check_cancelled();
+      column[i] = random.uniform() - 0.5;
+    }
   });
   return X;
 }

@@ -307,7 +307,10 @@ TEST_CASE("batch: one bad file stops nothing, what is there is kept, shards shar
   const std::string line =
       "batch " + eggs().model() + " " + scratch.path.string() + " -o " + results.path.string();
   CHECK(focal_json(line + " --shard 1/2")["done"] == 2);  // a and c
-  const json again = focal_json(line);
+  const Run second = focal(line + " --json");
+  CHECK(second.status == 1);
+  CHECK(second.err.find("1 of 3 meshes failed") != std::string::npos);
+  const json again = json::parse(second.out);
   CHECK(keys_of(again) == Keys{"meshes", "done", "kept", "failed"});
   CHECK(again["kept"] == 2);
   CHECK(again["failed"] == 1);

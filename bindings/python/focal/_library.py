@@ -28,8 +28,8 @@ def file_names() -> list[str]:
     if sys.platform == "win32":
         return ["focal.dll"]
     if sys.platform == "darwin":
-        return [f"libfocal.{VERSION[0]}.dylib", "libfocal.dylib"]
-    return [f"libfocal.so.{VERSION[0]}", "libfocal.so"]
+        return [f"libfocal.{VERSION[0]}.{VERSION[1]}.dylib", "libfocal.dylib"]
+    return [f"libfocal.so.{VERSION[0]}.{VERSION[1]}", "libfocal.so"]
 
 
 def _find() -> str:

@@ -41,11 +41,11 @@ class Model(Handle):
         tree_count             1..10000. Default 30
         min_leaf_samples       1 or more. Default 5
         components_per_split   1 or more. Default 5
-        sampling_rate          of the vertices analysed, above 0 to 1. Default 1
+        sampling_rate          of the vertices analysed, above 0 to 1. Default 1 (paper: 0.5)
         max_samples_per_shape  1 or more. Default 6250
-        proxy_vertices         meshes with more are analysed on a copy of so many; 0: as they are. Default 3500
+        proxy_vertices         meshes with more are analysed on a copy of so many; 0: as they are. Default 3500 (paper: 0)
         seed                   same seed, same model. Default 0
-        learn_confidence       takes two thirds of the time; without it every confidence is about a half. Default True
+        learn_confidence       takes three quarters of the time; without it every confidence is about a half. Default True
         rigged_shapes          learned of rigged characters in all, posed copies included. Default 16
         descriptor             "si-hks" or another name of focal.descriptors(). Default "si-hks"
         distance               "heat" or another name of focal.distances(). Default "heat"
@@ -135,7 +135,7 @@ class Model(Handle):
                absent_confidence: float | None = None, keep_votes: bool | None = None, seed: int | None = None,
                fixed: Mapping[str, Mark] | None = None, task: Task | None = None,
                on_progress: Progress | None = None) -> Detection:
-        """Finds the landmarks on a mesh: a part of a second. On an Analysis of it: tens of milliseconds.
+        """Finds the landmarks on a mesh: a part of a second. On an Analysis of it: about 0.1 s.
 
         quality             "best", or "interactive": faster, for a viewport
         sampling_rate       of the vertices analysed, 0..1. Default 0: as suits model and quality
