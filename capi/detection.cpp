@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <mutex>
 #include <utility>
 
 #include "analysis.h"
@@ -157,13 +158,48 @@ focal_detection* publish_detection(const Call& call, std::shared_ptr<const MeshO
   return publish(object);
 }
 
-focal_detection* run(const Call& call, const std::shared_ptr<const MeshObject>& mesh) {
-  Detection detection = detect(call.model->model, mesh->mesh, call.params, call.execution);
+focal_detection* publish_with_times(const Call& call, const std::shared_ptr<const MeshObject>& mesh,
+                                    Detection detection) {
   detection.seconds.load = mesh->load_seconds;
   detection.seconds.repair = mesh->repair_seconds;
   detection.seconds.total += mesh->load_seconds + mesh->repair_seconds;
   return publish_detection(call, mesh, std::move(detection));
 }
+
+// One thread a mesh. An error names the mesh.
+std::vector<Detection> detect_each(const Call& call,
+                                   const std::vector<std::shared_ptr<const MeshObject>>& meshes) {
+  std::vector<Detection> found(meshes.size());
+  std::mutex telling;
+  size_t done = 0;
+  call.execution.begin_stage("detections", 0, 1);
+  parallel_for(call.execution, static_cast<int64_t>(meshes.size()), [&](int64_t i) {
+    Execution inner = call.execution.inner();
+    inner.backend = call.execution.backend;
+    try {
+      found[i] = detect(call.model->model, meshes[i]->mesh, call.params, inner);
+    } catch (const Error& error) {
+      throw Error(error.status(), "mesh " + std::to_string(i) + ": " + error.what(), error.hint());
+    }
+    const std::scoped_lock lock(telling);
+    call.execution.report(static_cast<double>(++done) / static_cast<double>(meshes.size()));
+  });
+  return found;
+}
+
+// Handles that are taken back unless all of them were made.
+class Handles {
+ public:
+  ~Handles() {
+    for (focal_detection* one : made_) remove_handle(one, HandleType::detection);
+  }
+  void reserve(size_t count) { made_.reserve(count); }
+  void add(focal_detection* one) { made_.push_back(one); }
+  void give(focal_detection** out) { std::copy(made_.begin(), made_.end(), out), made_.clear(); }
+
+ private:
+  std::vector<focal_detection*> made_;
+};
 
 }  // namespace
 }  // namespace focal
@@ -182,7 +218,30 @@ focal_status focal_model_detect(const focal_model* model, const focal_mesh* mesh
     Call call(model, params, task);
     const auto object = resolve<MeshObject>(mesh);
     call.params.fixed = fixed_places(read_struct(params), call.model->info, *object->mesh);
-    *out_detection = run(call, object);
+    *out_detection = publish_with_times(call, object,
+                                        detect(call.model->model, object->mesh, call.params, call.execution));
+  });
+}
+
+focal_status focal_model_detect_many(const focal_model* model, const focal_mesh* const* meshes,
+                                     uint64_t mesh_count, const focal_detect_params* params, focal_task* task,
+                                     focal_detection** out_detections) {
+  return guarded([&] {
+    require(out_detections, "out_detections");
+    require(meshes, "meshes");
+    const focal_detect_params given = read_struct(params);
+    if (given.fixed_points || given.fixed_point_count > 0)
+      throw Error(Status::invalid_argument, "focal_detect_params.fixed_points belong to one mesh",
+                  "call focal_model_detect for a mesh with fixed landmarks");
+    const Call call(model, params, task);
+    std::vector<std::shared_ptr<const MeshObject>> objects;
+    for (uint64_t i = 0; i < mesh_count; ++i) objects.push_back(resolve<MeshObject>(meshes[i]));
+    std::vector<Detection> found = detect_each(call, objects);
+    Handles handles;
+    handles.reserve(found.size());
+    for (size_t i = 0; i < found.size(); ++i)
+      handles.add(publish_with_times(call, objects[i], std::move(found[i])));
+    handles.give(out_detections);
   });
 }
 

@@ -483,6 +483,14 @@ FOCAL_API focal_status focal_model_detect(const focal_model* model, const focal_
                                           focal_detection** out_detection);
 FOCAL_API focal_status focal_detection_destroy(focal_detection* detection);
 
+/* The same on many meshes: each on a thread of its own, and on a stream of its own where a GPU is used, which gives
+ * more of them a second than one call after another. out_detections: mesh_count handles, in the order of the
+ * meshes, with the same bits as from focal_model_detect on the CPU; all of them or, when one fails, none: the message
+ * tells its number. Errors: as above; INVALID_ARGUMENT also for fixed_points, which belong to one mesh. */
+FOCAL_API focal_status focal_model_detect_many(const focal_model* model, const focal_mesh* const* meshes,
+                                               uint64_t mesh_count, const focal_detect_params* params,
+                                               focal_task* task, focal_detection** out_detections);
+
 /* ---- Analysis: one mesh, many models ---- */
 
 /* Analyses the mesh as this model needs it; nearly all the work of a detection. The result serves every

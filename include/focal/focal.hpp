@@ -277,6 +277,16 @@ class Model : public Owner<focal_model, focal_model_destroy> {
                               result.truth.size(), result.regressed.data(), result.truth.data()));
     return result;
   }
+  std::vector<Detection> detect_many(const std::vector<const Mesh*>& meshes,
+                                     const focal_detect_params* params = nullptr,
+                                     Task* task = nullptr) const {
+    std::vector<const focal_mesh*> handles;
+    for (const Mesh* mesh : meshes) handles.push_back(mesh->get());
+    std::vector<focal_detection*> found(meshes.size());
+    check(focal_model_detect_many(handle_, handles.data(), handles.size(), params,
+                                  task ? task->get() : nullptr, found.data()));
+    return {found.begin(), found.end()};
+  }
   Detection detect(const Analysis& analysis, const focal_detect_params* params = nullptr,
                    Task* task = nullptr) const {
     focal_detection* detection = nullptr;

@@ -13,6 +13,7 @@ using Matrix4 = Eigen::Matrix4d;  // acts on column vectors
 using Vector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;                                                // column-major
 using MatrixX3 = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;    // points
+using Edges = Eigen::Matrix<int32_t, Eigen::Dynamic, 2, Eigen::RowMajor>;      // pairs of vertices
 using MatrixX3i = Eigen::Matrix<int32_t, Eigen::Dynamic, 3, Eigen::RowMajor>;  // triangles
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using RowMatrixf = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;

@@ -8,7 +8,7 @@
 
 namespace focal {
 
-inline constexpr uint32_t compute_version = 1;  // changes whenever the table does
+inline constexpr uint32_t compute_version = 2;  // changes whenever the table does
 inline constexpr const char* compute_entry_name = "focal_compute_entry";
 
 struct ComputeFailure {
@@ -22,6 +22,7 @@ struct ComputeSurface {
   const int32_t *column_start, *row;  // L, symmetric, by columns
   const double* value;
   const double* mass;
+  const double* position;      // n x 3
   const int32_t* corner;       // f x 3
   const float* coefficient;    // f x 4: half cotangents of the corners, area
   double area, heat_time;      // of the heat step; its inverse is also the shift of the spectrum
@@ -34,7 +35,8 @@ struct ComputeSource {  // of distances: a point between three vertices
   double weight[3];
 };
 
-// Linear maps from squared eigenfunctions to SI-HKS, each by rows. See descriptors/si_hks.cpp.
+// Linear maps from squared eigenfunctions to SI-HKS, each by rows. See descriptors/si_hks.cpp. frequencies 0: the first map
+// alone is the signature, of `times` components, as HKS and WKS are.
 struct ComputeSignature {
   int32_t times, frequencies, components;
   double scale;           // of the squared eigenfunctions
@@ -60,6 +62,16 @@ struct ComputeForest {
   int32_t kernel_half;  // entries of the smoothing kernel
   const float* kernel;  // at 1/2, 3/2 ... bins
   const float* decay;   // bins + 1: of a vote at the bins' edges
+};
+
+// What preset paper votes with: distances at which samples see landmarks, in `columns` columns (landmarks, for each side of
+// the symmetry plane). See landmarks/paper.cpp.
+struct ComputeIsolines {
+  int32_t samples, columns;
+  const int32_t* vertex;         // samples
+  const float *radius, *weight;  // samples x columns; radius: share of the sample's largest distance
+  const int32_t *neighbour_start, *neighbour;  // of each vertex along the surface's edges; n + 1
+  float neighbourhood;  // share of a vertex' own largest distance over which votes are averaged
 };
 
 // A functional map from some points to the surface, to be refined; see spectrum/functional_map.h.
@@ -104,6 +116,12 @@ struct ComputeTable {
   // the landmarks is set to 0.
   int32_t (*votes)(void* surface, void* forest, const int32_t* vertex, const float* descriptor, int32_t count,
                    int32_t stride, float* out, ComputeFailure* failure);
+  // The `peaks` best vertices of each landmark after votes, each outside the connected part of the balls round the better ones;
+  // -1: none left. out: landmarks x peaks.
+  int32_t (*peaks)(void* surface, int32_t peaks, double radius, int32_t* out, ComputeFailure* failure);
+  // Votes along isolines, averaged. out: n x columns.
+  int32_t (*isoline_votes)(void* surface, const ComputeIsolines* isolines, float* out,
+                           ComputeFailure* failure);
   // image: points, where they lie at first and at last; C: most x most by columns; error: points x 2, how far the points lie
   // from their images in the embedding, and their size, squared.
   int32_t (*zoom_out)(void* surface, const ComputeMap* map, int32_t* image, float* C, double* error,

@@ -4,6 +4,16 @@
 
 namespace focal {
 
+RowMatrix describe_spectrally(const DescribedSurface& surface, const Matrix& weights,
+                              std::span<const int32_t> vertices, const Execution& execution) {
+  RowMatrix result(vertices.size(), weights.cols());
+  parallel_for_ranges(execution, result.rows(), 32, [&](int64_t begin, int64_t end) {
+    for (int64_t i = begin; i < end; ++i)
+      result.row(i) = surface.operators.area * surface.basis.Phi.row(vertices[i]).cwiseAbs2() * weights;
+  });
+  return result;
+}
+
 #define FOCAL_DECLARE(name) DescriptorKind name##_descriptor();
 #define FOCAL_MAKE(name) name##_descriptor(),
 FOCAL_DESCRIPTORS(FOCAL_DECLARE)

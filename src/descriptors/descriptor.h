@@ -27,7 +27,13 @@ struct DescriptorKind {
   // vertices: rows of mesh.positions to describe. Returns vertices x dimension.
   RowMatrix (*describe)(const DescribedSurface& surface, std::span<const int32_t> vertices,
                         const Execution& execution);
+  // Of those that are area x squared eigenfunctions x weights: eigenpairs x dimension, which a GPU applies too; else null.
+  Matrix (*spectral_weights)(const Vector& lambda, double area) = nullptr;
 };
+
+// What describes by spectral weights is.
+RowMatrix describe_spectrally(const DescribedSurface& surface, const Matrix& weights,
+                              std::span<const int32_t> vertices, const Execution& execution);
 
 // All descriptors there are, one line each: the n-th line defines number n in focal.h, so lines are only ever added at the
 // end. A line `kind(NAME)` stands for a function `DescriptorKind NAME_descriptor()` in a file of its own.

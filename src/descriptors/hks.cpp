@@ -11,25 +11,23 @@ constexpr int32_t dimension = 96;
 // The times of SI-HKS (Xia et al. 2016, Section 5): 2^1 to 2^25 on a surface of this area, in even steps of the exponent.
 constexpr double first_exponent = 1, last_exponent = 25, reference_area = 2e4;
 
-RowMatrix describe(const DescribedSurface& surface, std::span<const int32_t> vertices,
-                   const Execution& execution) {
-  const Vector& lambda = surface.basis.lambda;
-  const Matrix& Phi = surface.basis.Phi;
-  const double area = surface.operators.area;
+Matrix weights(const Vector& lambda, double area) {
   Matrix decay(lambda.size(), dimension);
   for (int32_t k = 0; k < dimension; ++k) {
     const double t = std::exp2(first_exponent + k * (last_exponent - first_exponent) / (dimension - 1));
     decay.col(k) = (-lambda.array() * area / reference_area * t).exp();
   }
-  RowMatrix result(vertices.size(), dimension);
-  parallel_for_ranges(execution, result.rows(), 32, [&](int64_t begin, int64_t end) {
-    for (int64_t i = begin; i < end; ++i) result.row(i) = area * Phi.row(vertices[i]).cwiseAbs2() * decay;
-  });
-  return result;
+  return decay;
+}
+
+RowMatrix describe(const DescribedSurface& surface, std::span<const int32_t> vertices,
+                   const Execution& execution) {
+  return describe_spectrally(surface, weights(surface.basis.lambda, surface.operators.area), vertices,
+                             execution);
 }
 
 }  // namespace
 
-DescriptorKind hks_descriptor() { return {"hks", dimension, describe}; }
+DescriptorKind hks_descriptor() { return {"hks", dimension, describe, weights}; }
 
 }  // namespace focal

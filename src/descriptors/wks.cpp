@@ -29,18 +29,12 @@ Matrix weights(const Vector& lambda, double area) {
 
 RowMatrix describe(const DescribedSurface& surface, std::span<const int32_t> vertices,
                    const Execution& execution) {
-  const double area = surface.operators.area;
-  const Matrix weight = weights(surface.basis.lambda, area);
-  RowMatrix result(vertices.size(), dimension);
-  parallel_for_ranges(execution, result.rows(), 32, [&](int64_t begin, int64_t end) {
-    for (int64_t i = begin; i < end; ++i)
-      result.row(i) = area * surface.basis.Phi.row(vertices[i]).cwiseAbs2() * weight;
-  });
-  return result;
+  return describe_spectrally(surface, weights(surface.basis.lambda, surface.operators.area), vertices,
+                             execution);
 }
 
 }  // namespace
 
-DescriptorKind wks_descriptor() { return {"wks", dimension, describe}; }
+DescriptorKind wks_descriptor() { return {"wks", dimension, describe, weights}; }
 
 }  // namespace focal

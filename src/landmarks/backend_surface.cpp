@@ -67,8 +67,8 @@ void require_numbers(const T* values, int64_t count) {
 
 }  // namespace
 
-BackendSurface::BackendSurface(const Backend& backend, const Operators& operators, double heat_time,
-                               bool keep_negative_heat)
+BackendSurface::BackendSurface(const Backend& backend, const MatrixX3& positions, const Operators& operators,
+                               double heat_time, bool keep_negative_heat)
     : backend_(backend), vertices_(static_cast<int32_t>(operators.L.rows())) {
   RowMatrixf coefficient(operators.triangles.rows(), 4);
   coefficient << operators.half_cotangent.cast<float>(), operators.face_area.cast<float>();
@@ -76,6 +76,7 @@ BackendSurface::BackendSurface(const Backend& backend, const Operators& operator
   data.vertices = vertices_, data.faces = static_cast<int32_t>(operators.triangles.rows());
   data.column_start = operators.L.outerIndexPtr(), data.row = operators.L.innerIndexPtr();
   data.value = operators.L.valuePtr(), data.mass = operators.mass.data();
+  data.position = positions.data();
   data.corner = operators.triangles.data(), data.coefficient = coefficient.data();
   data.area = operators.area, data.heat_time = heat_time, data.keep_negative_heat = keep_negative_heat;
   backend_.call(backend_.table().surface_create, backend_.device(), &data, &surface_);
@@ -106,7 +107,6 @@ Eigenbasis BackendSurface::spectrum(const EigenParams& params) const {
 
 RowMatrixf BackendSurface::si_hks(const Vector& lambda, double area,
                                   std::span<const int32_t> vertices) const {
-  const std::scoped_lock lock(mutex_);
   const SiHksMaps maps = si_hks_maps(lambda, area);
   const ComputeSignature signature{static_cast<int32_t>(maps.decay.rows()),
                                    maps.frequencies,
@@ -115,7 +115,21 @@ RowMatrixf BackendSurface::si_hks(const Vector& lambda, double area,
                                    maps.decay.data(),
                                    maps.fourier.data(),
                                    maps.spline.data()};
-  RowMatrixf result(vertices.size(), si_hks_dimension);
+  return signatures(signature, si_hks_dimension, vertices);
+}
+
+RowMatrixf BackendSurface::spectral_signatures(const Matrix& weights, double scale,
+                                               std::span<const int32_t> vertices) const {
+  ComputeSignature signature{};  // by columns here is by rows there, transposed
+  signature.times = static_cast<int32_t>(weights.cols()), signature.scale = scale;
+  signature.decay = weights.data();
+  return signatures(signature, signature.times, vertices);
+}
+
+RowMatrixf BackendSurface::signatures(const ComputeSignature& signature, int32_t components,
+                                      std::span<const int32_t> vertices) const {
+  const std::scoped_lock lock(mutex_);
+  RowMatrixf result(vertices.size(), components);
   backend_.call(backend_.table().signatures, surface_, &signature, vertices.data(),
                 static_cast<int32_t>(vertices.size()), result.data());
   require_numbers(result.data(), result.size());
@@ -144,6 +158,42 @@ RowMatrixf BackendSurface::votes(const LandmarkModel& model, std::span<const int
   RowMatrixf result(vertices_, VoteTables::padded(static_cast<int32_t>(model.targets.cols())));
   backend_.call(backend_.table().votes, surface_, forest.get(), samples.data(), descriptors.data(),
                 static_cast<int32_t>(samples.size()), static_cast<int32_t>(result.cols()), result.data());
+  require_numbers(result.data(), result.size());
+  return result;
+}
+
+std::vector<std::vector<int32_t>> BackendSurface::peaks(int32_t landmarks, int32_t count,
+                                                        double radius) const {
+  const std::scoped_lock lock(mutex_);
+  std::vector<int32_t> found(static_cast<size_t>(landmarks) * static_cast<size_t>(count));
+  backend_.call(backend_.table().peaks, surface_, count, radius, found.data());
+  std::vector<std::vector<int32_t>> result(landmarks);
+  for (size_t i = 0; i < found.size(); ++i) {
+    if (found[i] < -1 || found[i] >= vertices_)
+      throw BackendFailure({0, "the device's results make no sense"});
+    if (found[i] >= 0) result[i / static_cast<size_t>(count)].push_back(found[i]);
+  }
+  return result;
+}
+
+RowMatrixf BackendSurface::isoline_votes(std::span<const int32_t> samples, const RowMatrixf& radii, double mu,
+                                         const Edges& edges, float neighbourhood) const {
+  const std::scoped_lock lock(mutex_);
+  const RowMatrixf weights = (-static_cast<float>(mu) * radii.array().square()).exp();
+  std::vector<int32_t> start(static_cast<size_t>(vertices_) + 1),
+      neighbour(static_cast<size_t>(edges.size()));
+  for (Eigen::Index i = 0; i < edges.size(); ++i) ++start[static_cast<size_t>(edges.data()[i]) + 1];
+  for (size_t v = 1; v < start.size(); ++v) start[v] += start[v - 1];
+  std::vector<int32_t> next(start.begin(), start.end() - 1);
+  for (Eigen::Index e = 0; e < edges.rows(); ++e)
+    for (int side = 0; side < 2; ++side) neighbour[next[edges(e, side)]++] = edges(e, 1 - side);
+  ComputeIsolines data{};
+  data.samples = static_cast<int32_t>(samples.size()), data.columns = static_cast<int32_t>(radii.cols());
+  data.vertex = samples.data(), data.radius = radii.data(), data.weight = weights.data();
+  data.neighbour_start = start.data(), data.neighbour = neighbour.data();
+  data.neighbourhood = neighbourhood;
+  RowMatrixf result(vertices_, radii.cols());
+  backend_.call(backend_.table().isoline_votes, surface_, &data, result.data());
   require_numbers(result.data(), result.size());
   return result;
 }
@@ -194,7 +244,8 @@ BackendDistance::BackendDistance(std::shared_ptr<const PreparedMesh> mesh, const
       keep_negative_heat_(keep_negative_heat) {
   const HeatTime time = heat_time(mesh_->surface, operators_);
   distance_bound_ = time.distance_bound, warning_ = time.warning();
-  surface_ = std::make_shared<BackendSurface>(backend, operators_, time.t, keep_negative_heat);
+  surface_ = std::make_shared<BackendSurface>(backend, mesh_->surface.positions, operators_, time.t,
+                                              keep_negative_heat);
 }
 
 void BackendDistance::solve_block(std::span<const Source> sources, float* out,

@@ -20,8 +20,8 @@ namespace focal {
 // Thread-safe: one call at a time. The device's memory is free again once it is closed; nothing may be asked then.
 class BackendSurface {
  public:
-  BackendSurface(const Backend& backend, const Operators& operators, double heat_time,
-                 bool keep_negative_heat);
+  BackendSurface(const Backend& backend, const MatrixX3& positions, const Operators& operators,
+                 double heat_time, bool keep_negative_heat);
   ~BackendSurface() { close(); }
   BackendSurface(const BackendSurface&) = delete;
 
@@ -31,11 +31,20 @@ class BackendSurface {
   Eigenbasis spectrum(const EigenParams& params) const;
   // SI-HKS of some vertices, after the spectrum, whose eigenvalues these are.
   RowMatrixf si_hks(const Vector& lambda, double area, std::span<const int32_t> vertices) const;
+  // scale times the squared eigenfunctions of some vertices times weights: eigenpairs x components.
+  RowMatrixf spectral_signatures(const Matrix& weights, double scale,
+                                 std::span<const int32_t> vertices) const;
   // out: vertices x sources.
   void distances(std::span<const Distance::Source> sources, float* out) const;
   // Votes of the samples, one row of descriptors each: vertices x VoteTables::padded(landmarks).
   RowMatrixf votes(const LandmarkModel& model, std::span<const int32_t> samples,
                    const Eigen::Ref<const RowMatrixf>& descriptors) const;
+  // As find_peaks with connected balls as surroundings, of the last votes, once.
+  std::vector<std::vector<int32_t>> peaks(int32_t landmarks, int32_t count, double radius) const;
+  // Votes of the samples along isolines at radii (samples x columns, shares of a sample's largest distance) with exp(-mu
+  // radius^2), averaged over a share of a vertex' own largest distance: vertices x columns.
+  RowMatrixf isoline_votes(std::span<const int32_t> samples, const RowMatrixf& radii, double mu,
+                           const Edges& edges, float neighbourhood) const;
   // As zoom_out; to.Phi must be the same at every call.
   FunctionalMap zoom_out(const SpectralSamples& from, const SpectralTargets& to, std::vector<int32_t> initial,
                          const MapParams& params) const;
@@ -43,6 +52,9 @@ class BackendSurface {
   std::vector<ComputeStage> stages() const;
 
  private:
+  RowMatrixf signatures(const ComputeSignature& signature, int32_t components,
+                        std::span<const int32_t> vertices) const;
+
   const Backend& backend_;
   int32_t vertices_;
   mutable std::mutex mutex_;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/stopwatch.h"
+#include "landmarks/backend_surface.h"
 #include "symmetry/symmetry_plane.h"
 #include "vote/vote.h"
 
@@ -153,6 +154,17 @@ TwoVotes average_nearby(const TwoVotes& votes, const SurfaceAnalysis& analysis, 
   return result;
 }
 
+TwoVotes mean_votes(const SurfaceAnalysis& analysis, const RowMatrixf radii[2], const Execution& execution) {
+  if (!analysis.on_backend)
+    return average_nearby(cast_votes(analysis, radii, execution), analysis, execution);
+  const Eigen::Index L = radii[0].cols();
+  RowMatrixf both(radii[0].rows(), 2 * L);
+  both << radii[0], radii[1];
+  const RowMatrixf votes = analysis.on_backend->isoline_votes(analysis.samples, both, mu,
+                                                              edges_of(analysis.surface()), neighbourhood);
+  return {{votes.leftCols(L), votes.rightCols(L)}};
+}
+
 }  // namespace
 
 void train_paper_forests(LandmarkModel& model, const TrainingSet& set,
@@ -204,7 +216,7 @@ Placement place_landmarks_paper(const LandmarkModel& model, const SurfaceAnalysi
     for (int32_t l = 0; l < L; ++l) radii[s].col(l) = predict_means(model.forests[l], descriptors, execution);
   }
   seconds.forest += watch.lap();
-  const TwoVotes votes = average_nearby(cast_votes(analysis, radii, execution), analysis, execution);
+  const TwoVotes votes = mean_votes(analysis, radii, execution);
   seconds.vote += watch.lap();
   // "Higher total vote": the sum over the landmarks of the winning mean vote.
   const auto total = [&](int s) { return votes.sign[s].colwise().maxCoeff().sum(); };

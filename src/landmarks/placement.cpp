@@ -139,12 +139,13 @@ Placement place_landmarks(const LandmarkModel& model, const SurfaceAnalysis& ana
   const int32_t samples = std::min(sample_limit, static_cast<int32_t>(analysis.samples.size()));
   result.votes = cast_votes(model, analysis, samples, execution, seconds);
   Stopwatch watch;
-  auto peaks = find_peaks(
-      result.votes, static_cast<int32_t>(result.votes.cols()), params.peaks_per_landmark, 0,
-      [&](int32_t v) {
-        return connected_ball(analysis.operators.L, analysis.surface().positions, v, peak_separation);
-      },
-      execution);
+  const auto L = static_cast<int32_t>(result.votes.cols());
+  const auto surroundings = [&](int32_t v) {
+    return connected_ball(analysis.operators.L, analysis.surface().positions, v, peak_separation);
+  };
+  auto peaks = analysis.on_backend
+                   ? analysis.on_backend->peaks(L, params.peaks_per_landmark, peak_separation)
+                   : find_peaks(result.votes, L, params.peaks_per_landmark, 0, surroundings, execution);
   seconds.vote += watch.lap();
   result.fixed = fixed_places(params, analysis);
   std::vector<char> certain(result.fixed.size());

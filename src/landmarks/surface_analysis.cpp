@@ -74,10 +74,14 @@ bool make_backend_solvers(SurfaceAnalysis& analysis, const Execution& execution)
 }
 
 RowMatrixf describe(const SurfaceAnalysis& analysis, const Eigenbasis& basis, const Execution& execution) {
+  const DescriptorKind& kind = descriptor_kinds()[analysis.params.descriptor];
+  const double area = analysis.operators.area;
   if (analysis.on_backend && analysis.params.descriptor == 0)
-    return analysis.on_backend->si_hks(basis.lambda, analysis.operators.area, analysis.samples);
-  return descriptor_kinds()[analysis.params.descriptor]
-      .describe({analysis.surface(), analysis.operators, basis}, analysis.samples, execution)
+    return analysis.on_backend->si_hks(basis.lambda, area, analysis.samples);
+  if (analysis.on_backend && kind.spectral_weights)
+    return analysis.on_backend->spectral_signatures(kind.spectral_weights(basis.lambda, area), area,
+                                                    analysis.samples);
+  return kind.describe({analysis.surface(), analysis.operators, basis}, analysis.samples, execution)
       .cast<float>();
 }
 

@@ -18,7 +18,7 @@ double surface_area(const TriangleMesh& mesh) {
   return twice / 2;
 }
 
-Eigen::Matrix<int32_t, Eigen::Dynamic, 2, Eigen::RowMajor> edges_of(const TriangleMesh& mesh) {
+Edges edges_of(const TriangleMesh& mesh) {
   // By the smaller end by counting, then the few at each vertex by the larger end.
   const int32_t n = mesh.vertex_count();
   const auto for_each_side = [&](const auto& visit) {
@@ -40,7 +40,7 @@ Eigen::Matrix<int32_t, Eigen::Dynamic, 2, Eigen::RowMajor> edges_of(const Triang
         static_cast<int32_t>(std::unique(other.begin() + start[v], other.begin() + end[v]) - other.begin());
     count += end[v] - start[v];
   }
-  Eigen::Matrix<int32_t, Eigen::Dynamic, 2, Eigen::RowMajor> result(count, 2);
+  Edges result(count, 2);
   Eigen::Index e = 0;
   for (int32_t v = 0; v < n; ++v)
     for (int32_t p = start[v]; p < end[v]; ++p) result.row(e++) << v, other[p];

@@ -27,6 +27,6 @@ int32_t nearest_corner(const TriangleMesh& mesh, const SurfacePoint& point);  //
 MatrixX3 area_normals(const TriangleMesh& mesh);
 
 // Undirected edges, each once, smaller index first, sorted; row e is (a, b).
-Eigen::Matrix<int32_t, Eigen::Dynamic, 2, Eigen::RowMajor> edges_of(const TriangleMesh& mesh);
+Edges edges_of(const TriangleMesh& mesh);
 
 }  // namespace focal

@@ -69,9 +69,8 @@ void add_distribution_votes(const VoteTables& tables, int32_t count, const Quant
   });
 }
 
-void add_isoline_votes(const RowMatrixf& radii, const float* distances, int32_t count,
-                       const Eigen::Matrix<int32_t, Eigen::Dynamic, 2, Eigen::RowMajor>& edges, double mu,
-                       RowMatrixf& votes) {
+void add_isoline_votes(const RowMatrixf& radii, const float* distances, int32_t count, const Edges& edges,
+                       double mu, RowMatrixf& votes) {
   const RowMatrixf weights = (-static_cast<float>(mu) * radii.array().square()).exp();
   // The radii of a sample in ascending order: an edge crosses those between its two distances.
   std::vector<std::vector<std::pair<float, int32_t>>> sorted(count);

@@ -37,8 +37,7 @@ void add_distribution_votes(const VoteTables& tables, int32_t count, const Quant
 
 // `paper` (Xia et al. 2016, Section 4.4): every edge crossed by the isoline of sample j at radius(j, l) gives
 // exp(-mu radius^2) to both its ends. distances[v * 32 + j] of vertex v from sample j; radii: count x landmarks in the same unit; edges: e x 2.
-void add_isoline_votes(const RowMatrixf& radii, const float* distances, int32_t count,
-                       const Eigen::Matrix<int32_t, Eigen::Dynamic, 2, Eigen::RowMajor>& edges, double mu,
-                       RowMatrixf& votes);
+void add_isoline_votes(const RowMatrixf& radii, const float* distances, int32_t count, const Edges& edges,
+                       double mu, RowMatrixf& votes);
 
 }  // namespace focal

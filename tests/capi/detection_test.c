@@ -36,6 +36,41 @@ static void check_correspondence(const focal_detection* from, const focal_detect
   CHECK_OK(focal_correspondence_destroy(map));
 }
 
+/* Many at once are the same as one after the other; all of them or none. */
+static void check_many(const focal_model* model, const focal_mesh* mesh) {
+  const focal_mesh* meshes[5] = {mesh, mesh, mesh, mesh, mesh};
+  focal_detection *many[5] = {NULL}, *one = NULL;
+  static float votes[VERTICES], expected[VERTICES];
+  focal_detect_params params;
+  focal_surface_point fixed[3] = {{0, {1, 0, 0}}, {0, {1, 0, 0}}, {0, {1, 0, 0}}};
+  focal_task* task = NULL;
+  CHECK_OK(focal_model_detect(model, mesh, NULL, NULL, &one));
+  CHECK_OK(focal_detection_votes(one, 1, VERTICES, expected));
+  CHECK_OK(focal_task_create(&task));
+  CHECK_OK(focal_model_detect_many(model, meshes, 5, NULL, task, many));
+  CHECK(focal_task_progress(task) == 1);
+  for (int i = 0; i < 5; ++i) {
+    CHECK_OK(focal_detection_votes(many[i], 1, VERTICES, votes));
+    CHECK(memcmp(votes, expected, sizeof votes) == 0);
+    CHECK_OK(focal_detection_destroy(many[i]));
+    many[i] = NULL;
+  }
+  CHECK_OK(focal_model_detect_many(model, meshes, 0, NULL, NULL, many));
+  CHECK_OK(focal_task_cancel(task));
+  CHECK_REFUSED(focal_model_detect_many(model, meshes, 5, NULL, task, many), FOCAL_ERROR_CANCELLED, "");
+  meshes[3] = NULL;
+  CHECK_REFUSED(focal_model_detect_many(model, meshes, 5, NULL, NULL, many), FOCAL_ERROR_INVALID_HANDLE, "");
+  CHECK_OK(focal_detect_params_init(&params, sizeof params));
+  params.fixed_points = fixed, params.fixed_point_count = 3;
+  CHECK_REFUSED(focal_model_detect_many(model, meshes, 3, &params, NULL, many), FOCAL_ERROR_INVALID_ARGUMENT,
+                "belong to one mesh");
+  CHECK_REFUSED(focal_model_detect_many(model, NULL, 3, NULL, NULL, many), FOCAL_ERROR_INVALID_ARGUMENT,
+                "meshes is NULL");
+  CHECK(!many[0] && !many[4]);
+  focal_detection_destroy(one);
+  focal_task_destroy(task);
+}
+
 static void check_parts(const focal_detection* detection) {
   static int32_t labels[TRIANGLES];
   focal_mesh* mesh = NULL;
@@ -166,6 +201,7 @@ int main(void) {
   check_parts(from);
   check_votes(from);
   check_first_triangle(model);
+  check_many(model, first);
   check_text_file(model);
   focal_detection_destroy(from), focal_detection_destroy(to);
   focal_mesh_destroy(first), focal_mesh_destroy(second);

@@ -1,5 +1,5 @@
-// All backends, stage by stage, against the CPU: one after the other on surfaces that are easy and surfaces that are not, then
-// whole detections; and, where the module can be told to fail, every way of failing.
+// All backends, stage by stage, against the CPU, on surfaces that are easy and surfaces that are not; whole detections are in
+// backend_detections.cpp.
 // usage: focal_backend_test DRIVER MODULE [doctest options]. Exit code 77: there is no such device.
 #define DOCTEST_CONFIG_IMPLEMENT
 #include <dlfcn.h>
@@ -10,37 +10,25 @@
 #include <cstdio>
 
 #include "base/random.h"
-#include "compute/host_queue.h"
-#include "compute/module_loader.h"
-#include "creatures/character.h"
+#include "compute/backend_under_test.h"
+#include "descriptors/descriptor.h"
 #include "descriptors/si_hks.h"
 #include "geodesics/heat_method.h"
 #include "landmarks/backend_surface.h"
-#include "landmarks/detect.h"
 #include "landmarks/leaf_votes.h"
-#include "landmarks/train.h"
 #include "surfaces.h"
+#include "vote/peaks.h"
 
 using namespace focal;
 using namespace focal_test;
 
-namespace {
-
-#ifdef FOCAL_SANITIZED  // many times slower: the same code, on less, where landmarks are not as sure
-constexpr bool sanitized = true;
-#else
-constexpr bool sanitized = false;
-#endif
-
-BackendFiles files;
-std::shared_ptr<Backend> backend;
-
-// The counters of a module that can be told to fail, or null.
-HostFaults* faults() {
+HostFaults* focal_test::faults() {
   void* module = dlopen(files.module.c_str(), RTLD_NOW | RTLD_NOLOAD);
   void* found = module ? dlsym(module, "focal_host_faults") : nullptr;
   return found ? reinterpret_cast<HostFaults* (*)()>(found)() : nullptr;
 }
+
+namespace {
 
 struct Subject {
   const char* name;
@@ -159,6 +147,23 @@ TEST_CASE("signatures") {
   }
 }
 
+TEST_CASE("signatures that are weights of squared eigenfunctions") {
+  for (const Subject& of : subjects()) {
+    const OnDevice device(of);
+    const Eigenbasis basis = device.surface.spectrum(eigen_params());
+    const auto vertices = some_vertices(of, 100);
+    for (const DescriptorKind& kind : descriptor_kinds()) {
+      if (!kind.spectral_weights) continue;
+      const double area = of.operators.area;
+      const RowMatrixf ours =
+          device.surface.spectral_signatures(kind.spectral_weights(basis.lambda, area), area, vertices);
+      const RowMatrix theirs = kind.describe({of.mesh->surface, of.operators, basis}, vertices, {});
+      tell(kind.name.data(), of, (ours.cast<double>() - theirs).cwiseAbs().maxCoeff() / theirs.maxCoeff(),
+           1e-6);
+    }
+  }
+}
+
 namespace {
 
 // Any model will do: random leaves over what the descriptors say.
@@ -212,6 +217,60 @@ TEST_CASE("votes") {
     REQUIRE(ours.cols() == theirs.cols());
     tell("votes", of, (ours - theirs).cwiseAbs().maxCoeff() / theirs.maxCoeff(), 1e-3);
     CHECK(ours.rightCols(ours.cols() - 11).isZero());
+    const auto& positions = of.mesh->surface.positions;
+    const double radius = 0.1 * std::sqrt(of.operators.area);
+    const auto peaks = find_peaks(
+        ours, 11, 6, 0, [&](int32_t v) { return connected_ball(of.operators.L, positions, v, radius); }, {});
+    CHECK(device.surface.peaks(11, 6, radius) == peaks);
+    CHECK_THROWS_AS(device.surface.peaks(11, 6, radius), const BackendFailure&);  // they are used up
+  }
+}
+
+namespace {
+
+// As the paper has it, edge by edge and vertex by vertex. distances: sources x vertices.
+RowMatrixf isoline_votes(const RowMatrixf& samples, const RowMatrixf& all, const RowMatrixf& radii, double mu,
+                         const Edges& edges, float neighbourhood) {
+  RowMatrixf votes = RowMatrixf::Zero(all.cols(), radii.cols()), mean = votes;
+  for (Eigen::Index j = 0; j < samples.rows(); ++j) {
+    const Eigen::RowVectorXf share = samples.row(j) / samples.row(j).maxCoeff();
+    for (Eigen::Index e = 0; e < edges.rows(); ++e)
+      for (Eigen::Index k = 0; k < radii.cols(); ++k) {
+        const float low = std::min(share[edges(e, 0)], share[edges(e, 1)]),
+                    high = std::max(share[edges(e, 0)], share[edges(e, 1)]), r = radii(j, k);
+        if (low > r || r > high) continue;
+        for (int side = 0; side < 2; ++side)
+          votes(edges(e, side), k) += std::exp(-static_cast<float>(mu) * r * r);
+      }
+  }
+  for (Eigen::Index v = 0; v < all.rows(); ++v) {
+    int near = 0;
+    for (Eigen::Index w = 0; w < all.cols(); ++w)
+      if (all(v, w) < neighbourhood * all.row(v).maxCoeff()) mean.row(v) += votes.row(w), ++near;
+    mean.row(v) /= static_cast<float>(std::max(near, 1));
+  }
+  return mean;
+}
+
+}  // namespace
+
+TEST_CASE("votes along isolines, averaged") {
+  for (const Subject& of : subjects()) {
+    const OnDevice device(of);
+    const int32_t n = of.mesh->surface.vertex_count();
+    const auto samples = some_vertices(of, 280);  // more than the device takes at once
+    std::vector<int32_t> all(static_cast<size_t>(n));
+    for (int32_t v = 0; v < n; ++v) all[static_cast<size_t>(v)] = v;
+    Random random(6);
+    RowMatrixf radii(samples.size(), 5);
+    for (Eigen::Index i = 0; i < radii.size(); ++i)
+      radii.data()[i] = static_cast<float>(1.2 * random.uniform() - 0.1);  // some beyond everything
+    const Edges edges = edges_of(of.mesh->surface);
+    const RowMatrixf ours = device.surface.isoline_votes(samples, radii, 5, edges, 0.06F);
+    const RowMatrixf theirs = isoline_votes(device.distance->distances(samples, {}),
+                                            device.distance->distances(all, {}), radii, 5, edges, 0.06F);
+    // Where an isoline passes through a vertex, a rounding decides on which side of it.
+    tell("isolines", of, (ours - theirs).cwiseAbs().sum() / theirs.sum(), 1e-3);
   }
 }
 
@@ -244,208 +303,6 @@ TEST_CASE("functional maps") {
   }
 }
 
-// ---- Whole detections
-
-namespace {
-
-TriangleMesh posed_mesh(const creatures::Character& character) {
-  TriangleMesh mesh;
-  mesh.positions.resize(static_cast<Eigen::Index>(character.posed.size()), 3);
-  for (size_t v = 0; v < character.posed.size(); ++v)
-    mesh.positions.row(static_cast<Eigen::Index>(v)) = character.posed[v];
-  mesh.triangles.resize(static_cast<Eigen::Index>(character.rest.triangles.size()), 3);
-  for (size_t t = 0; t < character.rest.triangles.size(); ++t)
-    for (int i = 0; i < 3; ++i)
-      mesh.triangles(static_cast<Eigen::Index>(t), i) = character.rest.triangles[t][i];
-  return mesh;
-}
-
-creatures::Character humanoid(uint64_t seed) {
-  return creatures::make_character(creatures::families()[0], "humanoid", seed);
-}
-
-// Preset paper analyses a surface as it is, so it is given small ones.
-std::shared_ptr<const PreparedMesh> coarse(const std::shared_ptr<const PreparedMesh>& mesh) {
-  return make_proxy(mesh, 1000).coarse;
-}
-MarkedShape coarse(const MarkedShape& shape) {
-  const Proxy proxy = make_proxy(shape.mesh, 1000);
-  MarkedShape result{proxy.coarse, {}};
-  for (const auto& mark : shape.marks) result.marks.push_back(to_coarse(proxy, std::span(&*mark, 1))[0]);
-  return result;
-}
-
-std::shared_ptr<const LandmarkModel> trained(Preset preset) {
-  TrainingSet set;
-  for (const auto& mark : humanoid(100).landmarks) set.landmark_names.push_back(mark.name);
-  for (uint64_t seed = 100; seed < (sanitized ? 104 : 112); ++seed) {
-    const auto character = humanoid(seed);
-    MarkedShape shape{std::make_shared<PreparedMesh>(prepare(posed_mesh(character))), {}};
-    for (const auto& mark : character.landmarks)
-      shape.marks.push_back(to_surface(*shape.mesh, {mark.triangle, mark.barycentric}));
-    if (preset == Preset::paper) shape = coarse(shape);
-    set.shapes.push_back(std::move(shape));
-  }
-  TrainParams params = TrainParams::from_preset(preset);
-  params.eigenpair_count = 100, params.sampling_rate = 0.3, params.tree_count = 10, params.spoiled_copies = 0;
-  params.learns_confidence = false;
-  if (preset == Preset::default_preset) params.proxy_vertices = sanitized ? 600 : 900;
-  return std::make_shared<LandmarkModel>(train(set, params, {}));
-}
-
-const std::shared_ptr<const LandmarkModel>& model() {
-  static const auto made = trained(Preset::default_preset);
-  return made;
-}
-
-std::shared_ptr<const PreparedMesh> unseen(uint64_t seed) {
-  return std::make_shared<PreparedMesh>(prepare(posed_mesh(humanoid(seed))));
-}
-
-Execution on(const Backend* where) {
-  Execution execution;
-  execution.thread_count = 2, execution.backend = where;
-  return execution;
-}
-
-void check_same_bits(const Detection& a, const Detection& b) {
-  REQUIRE(a.landmarks.size() == b.landmarks.size());
-  for (size_t l = 0; l < a.landmarks.size(); ++l) {
-    CHECK(a.landmarks[l].position == b.landmarks[l].position);
-    CHECK(a.landmarks[l].confidence == b.landmarks[l].confidence);
-  }
-  CHECK(a.votes == b.votes);
-}
-
-// The maps of the training shapes end in whole vertices: where a rounding decides, one of a dozen opinions moves by an edge.
-void check_agrees(const std::shared_ptr<const LandmarkModel>& model_of) {
-  double worst = 0;
-  const bool paper = model_of->params.preset == Preset::paper;
-  for (uint64_t seed = 200; seed < 203; ++seed) {
-    const auto mesh = paper ? coarse(unseen(seed)) : unseen(seed);
-    const Detection ours = detect(model_of, mesh, {}, on(backend.get())),
-                    theirs = detect(model_of, mesh, {}, on(nullptr));
-    CHECK(ours.by_backend);
-    CHECK_FALSE(theirs.by_backend);
-    const double edge = make_operators(theirs.proxy.coarse->surface).mean_edge * theirs.proxy.scale();
-    for (size_t l = 0; l < ours.landmarks.size(); ++l) {
-      CHECK(ours.landmarks[l].status == theirs.landmarks[l].status);
-      worst = std::max(worst, (ours.landmarks[l].position - theirs.landmarks[l].position).norm() / edge);
-    }
-  }
-  std::printf("landmarks at most %.4f edges apart, 0.1 allowed\n", worst);
-  CHECK(worst <= 0.1);
-}
-
-}  // namespace
-
-TEST_CASE("landmarks are the same within a tenth of an edge, preset default" * doctest::skip(sanitized)) {
-  check_agrees(model());
-}
-
-TEST_CASE("landmarks are the same within a tenth of an edge, preset paper" * doctest::skip(sanitized)) {
-  check_agrees(trained(Preset::paper));
-}
-
-TEST_CASE("the device gives the same bits each time, and by any number of threads") {
-  const auto mesh = unseen(200);
-  Execution one = on(backend.get());
-  one.thread_count = 1;
-  check_same_bits(detect(model(), mesh, {}, one), detect(model(), mesh, {}, on(backend.get())));
-}
-
-TEST_CASE("an analysis that is kept needs no device any more" * doctest::skip(sanitized)) {
-  std::string note;
-  const auto mesh = unseen(201);
-  detect(model(), mesh, {}, on(backend.get()));
-  const int64_t live = faults() ? faults()->live.load() : 0;  // the model's forest stays
-  const SurfaceAnalysis kept = analyse_to_keep(model()->params, mesh, {}, on(backend.get()), note);
-  CHECK(note.empty());
-  CHECK_FALSE(kept.on_backend);
-  CHECK_FALSE(kept.distances.steps.empty());
-  const Detection detection = detect(model(), kept, {}, on(backend.get()));
-  CHECK_FALSE(detection.by_backend);
-  const Detection theirs = detect(model(), mesh, {}, on(nullptr));
-  const double edge = kept.operators.mean_edge * kept.proxy.scale();
-  for (size_t l = 0; l < theirs.landmarks.size(); ++l)
-    CHECK((detection.landmarks[l].position - theirs.landmarks[l].position).norm() <= 0.1 * edge);
-  if (faults()) CHECK(faults()->live == live);
-}
-
-TEST_CASE("wherever a device fails, the CPU does the whole mesh") {
-  if (!faults()) return;
-  const auto mesh = unseen(202);
-  const Detection theirs = detect(model(), mesh, {}, on(nullptr));
-  faults()->allocations = 0, faults()->launches = 0, faults()->downloads = 0;
-  CHECK(detect(model(), mesh, {}, on(backend.get())).by_backend);
-  const int64_t allocations = faults()->allocations, launches = faults()->launches,
-                downloads = faults()->downloads;
-  REQUIRE(allocations > 40);
-  REQUIRE(launches > 20);
-  const auto check_fails = [&](std::atomic<int64_t>& counter, int64_t at, const char* why) {
-    counter = at;
-    const Detection ours = detect(model(), mesh, {}, on(backend.get()));
-    counter = -1;
-    CHECK_FALSE(ours.by_backend);
-    REQUIRE(!ours.warnings.empty());
-    CHECK(ours.warnings.back() == std::string("the GPU failed (") + why + "), so the CPU did this mesh");
-    check_same_bits(ours, theirs);
-    CHECK(backend->works());
-  };
-  for (int i = 0; i < (sanitized ? 2 : 3); ++i) {
-    check_fails(faults()->allocation, i * (allocations - 1) / 2, "out of device memory");
-    check_fails(faults()->download, i * (downloads - 1) / 2,
-                i == 0 ? "the eigenvalues of the surface did not converge on the GPU"
-                       : "the device's results make no sense");
-    check_fails(faults()->launch, i * (launches - 1) / 2, "a launch failed");
-  }
-  std::string note;
-  faults()->launch = 9;  // of the many in the spectrum
-  analyse_to_keep(model()->params, mesh, {}, on(backend.get()), note);
-  CHECK(note.find("a launch failed") != std::string::npos);
-  faults()->launch = -1;
-}
-
-TEST_CASE("after a lasting failure the device is asked no more") {
-  if (!faults()) return;
-  const auto mesh = unseen(202);
-  const auto other = load_backend(files, 0).backend;
-  REQUIRE(other);
-  faults()->lasting = true, faults()->launch = 7;
-  CHECK_FALSE(detect(model(), mesh, {}, on(other.get())).by_backend);
-  faults()->launch = -1, faults()->lasting = false;
-  CHECK_FALSE(other->works());
-  CHECK(std::string(other->reason()).find("a launch failed") != std::string::npos);
-  faults()->allocations = 0;
-  const Detection next = detect(model(), mesh, {}, on(other.get()));
-  CHECK(next.warnings.empty());
-  CHECK(faults()->allocations == 0);
-}
-
-TEST_CASE("many meshes at once, one queue each") {
-  std::vector<std::shared_ptr<const PreparedMesh>> meshes;
-  for (uint64_t seed = 200; seed < 203; ++seed) meshes.push_back(unseen(seed));
-  std::vector<Detection> together(meshes.size());
-  Execution four;
-  four.thread_count = 4;
-  parallel_for(four, static_cast<int64_t>(meshes.size()), [&](int64_t i) {
-    Execution inner = four.inner();
-    inner.backend = backend.get();
-    together[static_cast<size_t>(i)] = detect(model(), meshes[static_cast<size_t>(i)], {}, inner);
-  });
-  for (size_t i = 0; i < meshes.size(); ++i) {
-    CHECK(together[i].by_backend);
-    check_same_bits(together[i], detect(model(), meshes[i], {}, on(backend.get())));
-  }
-}
-
-TEST_CASE("nothing is left on the device") {
-  if (faults()) {
-    backend.reset();
-    CHECK(faults()->live == 0);
-  }
-}
-
 int main(int argc, char** argv) {
   if (argc < 3) return 2;
   files = {argv[1], argv[2]};
@@ -459,5 +316,7 @@ int main(int argc, char** argv) {
   doctest::Context context(argc - 2, argv + 2);
   const int result = context.run();
   backend.reset();
-  return result;
+  const int64_t left = faults() ? faults()->live.load() : 0;
+  if (left != 0) std::printf("%lld bytes are left on the device\n", static_cast<long long>(left));
+  return left == 0 ? result : 1;
 }

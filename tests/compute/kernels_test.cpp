@@ -12,6 +12,9 @@
 #include "compute/host_queue.h"
 #include "landmarks/leaf_votes.h"
 #include "landmarks/small_model.h"
+#include "operators/operators.h"
+#include "vote/peaks.h"
+#include "vote/vote.h"
 
 using namespace focal;
 using namespace focal_test;
@@ -193,4 +196,97 @@ TEST_CASE("memory of a device comes back on every way") {
     CHECK_NOTHROW((DeviceArray<float, HostQueue>(queue, 3)));
   }
   CHECK(host_faults.live == before);
+}
+
+namespace {
+
+// Any symmetric graph, as a sparse matrix.
+SparseMatrix random_graph(Random& random, int32_t n) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int32_t v = 0; v < n; ++v) entries.emplace_back(v, v, 1);
+  for (int32_t e = 0; e < 2 * n; ++e) {
+    const auto a = static_cast<int32_t>(random.uniform() * n), b = static_cast<int32_t>(random.uniform() * n);
+    entries.emplace_back(a, b, 1), entries.emplace_back(b, a, 1);
+  }
+  SparseMatrix graph(n, n);
+  graph.setFromTriplets(entries.begin(), entries.end());
+  return graph;
+}
+
+}  // namespace
+
+TEST_CASE("peaks are those of the CPU, where many votes are equal and where nothing is left") {
+  constexpr int32_t n = 150, landmarks = 3, count = 40;
+  Random random(8);
+  for (const double radius : {0.0, 0.4, 3.0}) {
+    const SparseMatrix graph = random_graph(random, n);
+    MatrixX3 positions(n, 3);
+    RowMatrixf votes(n, landmarks);
+    for (Eigen::Index i = 0; i < positions.size(); ++i) positions.data()[i] = random.uniform();
+    for (Eigen::Index i = 0; i < votes.size(); ++i)
+      votes.data()[i] = static_cast<float>(std::floor(4 * random.uniform()));
+    votes(5, 1) = infinity;
+    const auto theirs =
+        find_peaks(votes, landmarks, count, 0,
+                   [&](int32_t v) { return connected_ball(graph, positions, v, radius); }, {});
+    constexpr int32_t chunks = (n + BestInChunk::length - 1) / BestInChunk::length;
+    RowMatrixf left = votes;
+    std::vector<float> best(chunks * landmarks);
+    std::vector<int32_t> vertex(best.size()), mark(n * landmarks), open(n * landmarks),
+        peak(landmarks * count);
+    for (int32_t number = 0; number < count; ++number) {
+      const BestInChunk look{left.data(), best.data(), vertex.data(), n, landmarks};
+      for (int64_t at = 0; at < chunks * landmarks; ++at) look(at);
+      const TakePeak take{best.data(),
+                          vertex.data(),
+                          {graph.outerIndexPtr(), graph.innerIndexPtr(), nullptr},
+                          positions.data(),
+                          left.data(),
+                          mark.data(),
+                          open.data(),
+                          peak.data(),
+                          radius,
+                          n,
+                          landmarks,
+                          chunks,
+                          count,
+                          number};
+      for (int64_t l = 0; l < landmarks; ++l) take(l);
+    }
+    for (int32_t l = 0; l < landmarks; ++l) {
+      std::vector<int32_t> ours(&peak[l * count], &peak[l * count] + count);
+      std::erase(ours, -1);
+      CHECK(ours == theirs[l]);
+    }
+  }
+}
+
+TEST_CASE("isolines are those of the CPU, at radii that are none too") {
+  constexpr int32_t n = 40, samples = 32, columns = 4;
+  Random random(9);
+  Edges edges(100, 2);
+  for (Eigen::Index i = 0; i < edges.size(); ++i)
+    edges.data()[i] = static_cast<int32_t>(random.uniform() * n);
+  std::vector<int32_t> start = {0}, neighbour;
+  for (int32_t v = 0; v < n; ++v) {
+    for (Eigen::Index e = 0; e < edges.rows(); ++e)
+      for (int side = 0; side < 2; ++side)
+        if (edges(e, side) == v) neighbour.push_back(edges(e, 1 - side));
+    start.push_back(static_cast<int32_t>(neighbour.size()));
+  }
+  RowMatrixf share(n, samples), radii(samples, columns), theirs = RowMatrixf::Zero(n, columns), ours = theirs;
+  for (Eigen::Index i = 0; i < share.size(); ++i)
+    share.data()[i] = static_cast<float>(std::floor(10 * random.uniform()) / 10);
+  for (Eigen::Index i = 0; i < radii.size(); ++i)  // as often as not at a vertex
+    radii.data()[i] = static_cast<float>(std::floor(20 * random.uniform()) / 20);
+  radii(3, 0) = infinity, radii(4, 1) = -infinity;
+  add_isoline_votes(radii, share.data(), samples, edges, 5, theirs);
+  const RowMatrixf weight = (-5.0F * radii.array().square()).exp();
+  const IsolineEntry entry{share.data(),  start.data(), neighbour.data(), radii.data(),
+                           weight.data(), ours.data(),  columns,          samples};
+  for (int64_t at = 0; at < n * columns; ++at) entry(at);
+  CHECK((ours - theirs).cwiseAbs().maxCoeff() < 1e-4);
+  std::vector<float> largest(samples);
+  for (int64_t j = 0; j < samples; ++j) LargestDistance{share.data(), largest.data(), n, samples}(j);
+  CHECK(Eigen::Map<Eigen::RowVectorXf>(largest.data(), samples) == share.colwise().maxCoeff());
 }

@@ -174,6 +174,15 @@ static focal_status run_detect(const fixture* f, uint64_t* digest) {
   return take_detection(digest, detection);
 }
 
+static focal_status run_detect_many(const fixture* f, uint64_t* digest) {
+  const focal_mesh* meshes[2] = {f->mesh, f->mesh};
+  focal_detection* detections[2];
+  TRY(focal_model_detect_many(f->model, meshes, 2, NULL, NULL, detections));
+  const focal_status status = take_detection(digest, detections[0]);
+  const focal_status other = take_detection(digest, detections[1]);
+  return status == FOCAL_OK ? other : status;
+}
+
 static focal_status run_detect_paper(const fixture* f, uint64_t* digest) {
   focal_detection* detection = NULL;
   TRY(focal_model_detect(f->paper, f->mesh, NULL, NULL, &detection));
@@ -325,6 +334,7 @@ const scenario scenarios[] = {
     {"model file", run_model_file},
     {"model in memory", run_model_memory},
     {"detect", run_detect},
+    {"detect many", run_detect_many},
     {"detect paper", run_detect_paper},
     {"analyse, then detect", run_analyse},
     {"analysis file", run_analysis_file},

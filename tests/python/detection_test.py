@@ -73,6 +73,15 @@ class Landmarks(Case):
             with self.assertRaisesRegex(TypeError, "mesh must be a focal.Mesh"):
                 model().analyse(wrong)
 
+    def test_many_at_once_are_the_same(self):
+        meshes = [mesh(), mesh(16, 0.05)]
+        many = model().detect_many(meshes, keep_votes=False)
+        for found, one in zip(many, meshes):
+            self.assertEqual([mark.position for mark in found], [mark.position for mark in model().detect(one)])
+        self.assertEqual(model().detect_many([]), [])
+        with self.assertRaisesRegex(TypeError, "meshes must be a focal.Mesh"):
+            model().detect_many([mesh(), None])
+
     def test_places_that_are_known_stay(self):
         surface, truth = mesh(), shape(16, 0.12)[2]
         at = surface.point_at_vertex(truth[1])

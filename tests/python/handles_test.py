@@ -22,6 +22,7 @@ USES = {
     "TrainingSet": {"mesh_count": None, "add": (mesh(), [0, 1, 2]), "add_rig": (mesh(),)},
     "Model": {"save": ("m.focal",), "to_bytes": (), "info": None, "train_params": None, "landmark_names": None,
               "joint_names": None, "detect": (mesh(),), "analyse": (mesh(),),
+              "detect_many": ([mesh()],),
               "regress": (model().analyse(mesh()), "nose", 0)},
     "Analysis": {"save": ("m.analysis",)},
     "Detection": {"landmarks": None, "info": None, "category_fit": None, "seconds": None, "warnings": None,

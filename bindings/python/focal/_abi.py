@@ -412,6 +412,8 @@ FUNCTIONS = {
     "focal_model_detect": (c_int32, [
         P(focal_model), P(focal_mesh), P(focal_detect_params), P(focal_task), P(P(focal_detection))]),
     "focal_detection_destroy": (c_int32, [P(focal_detection)]),
+    "focal_model_detect_many": (c_int32, [
+        P(focal_model), P(P(focal_mesh)), c_uint64, P(focal_detect_params), P(focal_task), P(P(focal_detection))]),
     "focal_model_analyse": (c_int32, [
         P(focal_model), P(focal_mesh), P(focal_detect_params), P(focal_task), P(P(focal_analysis))]),
     "focal_analysis_destroy": (c_int32, [P(focal_analysis)]),

@@ -1,5 +1,6 @@
 // Functional maps on a device: see spectrum/functional_map.cpp, whose rounds these are.
 #pragma once
+#include "compute/device/map_kernels.h"
 #include "compute/device/surface.h"
 
 namespace focal {

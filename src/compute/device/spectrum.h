@@ -156,7 +156,7 @@ void spectrum(DeviceSurface<Queue>& surface, int32_t count, double tolerance, do
   iteration.finish(lambda, phi);
 }
 
-// SI-HKS of some vertices; see descriptors/si_hks.cpp.
+// Signatures of some vertices; see descriptors/si_hks.cpp and the other spectral ones.
 template <class Queue>
 void signatures(DeviceSurface<Queue>& surface, const ComputeSignature& how, const int32_t* vertices,
                 int32_t count, float* out) {
@@ -165,22 +165,34 @@ void signatures(DeviceSurface<Queue>& surface, const ComputeSignature& how, cons
   if (!surface.phi.data()) throw DeviceFailure{false, "signatures need a spectrum"};
   const int32_t k = surface.eigenpairs, T = how.times, F = how.frequencies, C = how.components;
   const DeviceArray<int32_t, Queue> vertex(queue, vertices, count);
-  const Array decay(queue, how.decay, int64_t{T} * k), fourier(queue, how.fourier, int64_t{2} * F * (T - 1)),
-      spline(queue, how.spline, int64_t{C} * F);
-  const Array squared(queue, int64_t{count} * k), hks(queue, int64_t{count} * T),
-      difference(queue, int64_t{count} * (T - 1)), frequency(queue, int64_t{count} * 2 * F),
-      magnitude(queue, int64_t{count} * F), values(queue, int64_t{count} * C);
-  const DeviceArray<float, Queue> result(queue, values.size());
+  const Array decay(queue, how.decay, int64_t{T} * k), squared(queue, int64_t{count} * k),
+      hks(queue, int64_t{count} * T);
   // Rows (samples) of A times the transpose of a map by rows.
   const auto apply = [&](const Array& map, int32_t to, int32_t from, const Array& A, const Array& result_of) {
     queue.multiply('T', 'N', to, count, from, 1.0, map.data(), from, A.data(), from, 0.0, result_of.data(),
                    to);
   };
+  const auto map_squares = [&] {
+    queue.launch(squared.size(),
+                 SquaredEigenfunctions{surface.phi.data(), vertex.data(), squared.data(), how.scale, k});
+    apply(decay, T, k, squared, hks);
+  };
+  if (F == 0) {
+    const DeviceArray<float, Queue> result(queue, hks.size());
+    surface.clock.time("signatures", 2.0 * count * T * k, 8.0 * count * (2 * k + 2 * T), [&] {
+      map_squares();
+      queue.launch(hks.size(), ToFloat{hks.data(), result.data()});
+    });
+    return result.download(out, result.size());
+  }
+  const Array fourier(queue, how.fourier, int64_t{2} * F * (T - 1)),
+      spline(queue, how.spline, int64_t{C} * F);
+  const Array difference(queue, int64_t{count} * (T - 1)), frequency(queue, int64_t{count} * 2 * F),
+      magnitude(queue, int64_t{count} * F), values(queue, int64_t{count} * C);
+  const DeviceArray<float, Queue> result(queue, values.size());
   surface.clock.time("signatures", 2.0 * count * (T * k + 2 * F * (T - 1) + C * F),
                      8.0 * count * (2 * k + 4 * T + 6 * F + 2 * C), [&] {
-                       queue.launch(squared.size(), SquaredEigenfunctions{surface.phi.data(), vertex.data(),
-                                                                          squared.data(), how.scale, k});
-                       apply(decay, T, k, squared, hks);
+                       map_squares();
                        queue.launch(difference.size(), LogDifference{hks.data(), difference.data(), T});
                        apply(fourier, 2 * F, T - 1, difference, frequency);
                        queue.launch(magnitude.size(), Magnitude{frequency.data(), magnitude.data(), F});

@@ -62,12 +62,14 @@ struct DeviceSurface {
   double area, heat_time, norm_bound;
   bool keep_negative;
   Array<int32_t> column_start, row, corner, fan_start, fan;
-  Array<double> value, mass;
+  Array<double> value, mass, position;
   Array<float> coefficient;
   Array<double> heat_inverse;    // (M + t L)^-1, n x n
   Array<float> poisson_inverse;  // of L on what is orthogonal to the constant
   Array<double> phi;             // n x eigenpairs by rows, after the spectrum
   int32_t eigenpairs = 0;
+  Array<float> votes;  // n x landmarks, after the last votes
+  int32_t landmarks = 0;
   Array<float> eigenfunctions;  // as the caller has them, after the first map
 };
 
@@ -128,10 +130,11 @@ DeviceSurface<Queue>::DeviceSurface(Queue& queue_, const ComputeSurface& from)
       keep_negative(from.keep_negative_heat != 0) {
   const double N = n, entries = N * N;
   const auto nonzeros = from.column_start[n];
-  clock.time("upload", 0, nonzeros * 12.0 + face_count * 40.0, [&] {
+  clock.time("upload", 0, nonzeros * 12.0 + face_count * 40.0 + n * 32.0, [&] {
     const auto fans = device_detail::fans_of(from);
     column_start = uploaded(queue, from.column_start, n + 1), row = uploaded(queue, from.row, nonzeros);
     value = uploaded(queue, from.value, nonzeros), mass = uploaded(queue, from.mass, n);
+    position = uploaded(queue, from.position, int64_t{3} * n);
     corner = uploaded(queue, from.corner, int64_t{3} * face_count);
     coefficient = uploaded(queue, from.coefficient, int64_t{4} * face_count);
     fan_start = uploaded(queue, fans.start.data(), n + 1),

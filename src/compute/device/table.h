@@ -71,10 +71,22 @@ template <class Queue>
 class TableOf {
  public:
   static const ComputeTable* table() {
-    static const ComputeTable all{sizeof(ComputeTable), compute_version, device_open,    device_close,
-                                  surface_create,       surface_destroy, spectrum_of,    signatures_of,
-                                  distances_of,         forest_create,   forest_destroy, votes_of,
-                                  zoom_out_of,          stages_of};
+    static const ComputeTable all{sizeof(ComputeTable),
+                                  compute_version,
+                                  device_open,
+                                  device_close,
+                                  surface_create,
+                                  surface_destroy,
+                                  spectrum_of,
+                                  signatures_of,
+                                  distances_of,
+                                  forest_create,
+                                  forest_destroy,
+                                  votes_of,
+                                  peaks_of,
+                                  isoline_votes_of,
+                                  zoom_out_of,
+                                  stages_of};
     return &all;
   }
 
@@ -167,6 +179,14 @@ class TableOf {
     return on_surface(surface, failure, [&](auto& on) {
       votes(on, static_cast<Forest*>(forest)->value(), vertex, descriptor, count, stride, out);
     });
+  }
+  static int32_t peaks_of(void* surface, int32_t count, double radius, int32_t* out,
+                          ComputeFailure* failure) {
+    return on_surface(surface, failure, [&](auto& on) { peaks(on, count, radius, out); });
+  }
+  static int32_t isoline_votes_of(void* surface, const ComputeIsolines* isolines, float* out,
+                                  ComputeFailure* failure) {
+    return on_surface(surface, failure, [&](auto& on) { isoline_votes(on, *isolines, out); });
   }
   static int32_t zoom_out_of(void* surface, const ComputeMap* map, int32_t* image, float* C, double* error,
                              ComputeFailure* failure) {
