@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <exception>
 #include <fstream>
+#include <stdexcept>
 
 #include "page.h"
 #include "study.h"
@@ -40,7 +41,15 @@ std::string figures_of(const paper::Study& study, bool all, Clock::time_point st
   return html;
 }
 
-std::string page_of(const focal::Context& context, const std::vector<std::string>& folders, bool quick) {
+void write(const std::string& path, const std::string& page) {
+  std::ofstream out(path, std::ios::binary);
+  out << page << "</body></html>\n";
+  if (!out.flush()) throw std::runtime_error("cannot write " + path);
+}
+
+// The page is there, as far as it is, after each set.
+void write_page(const focal::Context& context, const std::string& path,
+                const std::vector<std::string>& folders, bool quick) {
   const auto start = Clock::now();
   std::vector<paper::Study> studies;
   for (const std::string& folder : folders) {
@@ -49,9 +58,11 @@ std::string page_of(const focal::Context& context, const std::vector<std::string
   }
   std::string page = paper::kHead;
   page += "<h2>Tables</h2>\n" + paper::performance(studies) + paper::errors(studies) + paper::planes(studies);
-  for (size_t i = 0; i < studies.size(); ++i)
+  write(path, page);
+  for (size_t i = 0; i < studies.size(); ++i) {
     page += figures_of(studies[i], i == 0 || studies[i].set.name == "scape", start);
-  return page + "</body></html>\n";
+    write(path, page);
+  }
 }
 
 }  // namespace
@@ -66,10 +77,7 @@ int main(int argc, char** argv) {
   }
   try {
     const focal::Context context;
-    const std::string page = page_of(context, {words.begin() + 1, words.end()}, quick);
-    std::ofstream out(words[0], std::ios::binary);
-    out << page;
-    if (!out.flush()) throw std::runtime_error("cannot write " + words[0]);
+    write_page(context, words[0], {words.begin() + 1, words.end()}, quick);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "focal_paper: %s\n", error.what());
     return 1;
