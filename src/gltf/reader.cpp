@@ -116,12 +116,15 @@ void read_positions(const json& root, GltfBuffers& buffers, const Part& part, bo
   const auto offset = part.range.world_transform.topRightCorner<3, 1>();
   auto world = positions.middleRows(part.range.first_vertex, part.range.vertex_count);
   world = (local * linear.transpose()).rowwise() + offset.transpose();
-  for (Eigen::Index vertex = 0; vertex < world.rows(); ++vertex)
-    if (!lenient && !world.row(vertex).allFinite())
+  for (Eigen::Index vertex = 0; vertex < world.rows(); ++vertex) {
+    if (world.row(vertex).cast<float>().allFinite()) continue;  // as callers and files get it
+    if (!lenient)
       throw Error(Status::invalid_mesh,
                   name_of(part.range.mesh, part.range.primitive) + ": vertex " + std::to_string(vertex) +
                       " lies at a position that is not finite",
                   "repair the mesh in the program it was made with");
+    world.row(vertex).setConstant(std::numeric_limits<double>::quiet_NaN());
+  }
 }
 
 void read_triangles(const json& root, GltfBuffers& buffers, const Part& part, bool lenient,

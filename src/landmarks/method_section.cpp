@@ -13,7 +13,7 @@ template <class Kind>
 int32_t number_of(std::span<const Kind> kinds, const std::string& name, const char* what) {
   const auto found = std::find_if(kinds.begin(), kinds.end(), [&](const Kind& k) { return k.name == name; });
   if (found == kinds.end())
-    throw Error(Status::unsupported,
+    throw Error(Status::unsupported_version,
                 std::string("the file was made with the ") + what + " '" + name.substr(0, 80) +
                     "', which this library does not have",
                 "use the library that made it, or train again");

@@ -1,5 +1,9 @@
 // Any bytes as a glTF file: they are refused with a status and a hint, or read; what is read can be written again, with landmarks
 // and with a skin, and read once more.
+#include <algorithm>
+#include <cstdio>
+#include <string>
+
 #include "base/error.h"
 #include "fuzz.h"
 #include "gltf/animation.h"
@@ -36,7 +40,13 @@ void check_written(const fuzz::Bytes& written, const GltfMesh& before) {
     const GltfMesh again = read_gltf_memory(written, {.limits = small});
     fuzz::insist(again.mesh.triangle_count() >= before.mesh.triangle_count(), "no triangle is lost");
   } catch (const Error& error) {
-    fuzz::insist(error.status() == Status::unsupported, "a written file is read again");
+    // A further instance that was left out, and so never looked at, has a mesh of its own now: it may be a bad one.
+    const bool unseen = error.status() == Status::invalid_mesh &&
+                        std::any_of(before.warnings.begin(), before.warnings.end(), [](const auto& warning) {
+                          return warning.find("further instances") != std::string::npos;
+                        });
+    if (error.status() != Status::unsupported && !unseen) std::fprintf(stderr, "%s\n", error.what());
+    fuzz::insist(error.status() == Status::unsupported || unseen, "a written file is read again");
   }
 }
 

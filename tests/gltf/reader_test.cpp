@@ -262,9 +262,10 @@ TEST_CASE("each kind of damage has its status") {
   CHECK(patched("/asset/version", "1.0") == Status::unsupported);
   CHECK(patched("/extensionsRequired", {"VENDOR_secret"}) == Status::unsupported);
   CHECK(patched("/meshes/0/primitives/0/mode", 0) == Status::invalid_mesh);
-  CHECK(patched("/nodes/0/scale", {1e300, 1e300, 1e300}) == Status::ok);
+  CHECK(patched("/nodes/0/scale", {1e30, 1e30, 1e30}) == Status::ok);
+  CHECK(patched("/nodes/0/scale", {1e300, 1e300, 1e300}) == Status::invalid_mesh);  // no float holds it
   CHECK(patched("/nodes/0/matrix", {1e300, 0, 0, 0, 0, 1e300, 0, 0, 0, 0, 1e300, 0, 1e308, 0, 0, 1}) ==
-        Status::ok);
+        Status::invalid_mesh);
   CHECK(changed([](GltfBuilder& file) {
           const float nan = std::numeric_limits<float>::quiet_NaN();
           std::memcpy(file.bin.data() + 4, &nan, sizeof nan);
