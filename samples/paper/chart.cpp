@@ -18,7 +18,7 @@ std::string number(double value) {
 
 std::string rounded(double value) {
   char text[32];
-  std::snprintf(text, sizeof text, value < 1000 ? "%.2g" : "%.0f", value);
+  std::snprintf(text, sizeof text, std::fabs(value) < 100 ? "%.2g" : "%.0f", value);
   return text;
 }
 
@@ -44,7 +44,7 @@ std::string axes(const Range& x, const Range& y) {
     const double across = kLeft + share * (kRight - kLeft), up = kBottom - share * (kBottom - kTop);
     svg += "<path class=\"grid\" d=\"M" + number(kLeft) + " " + number(up) + "H" + number(kRight) + "\"/>";
     svg += text_at(kLeft - 5, up + 4, rounded(y.at(share)), "end");
-    svg += text_at(across, kBottom + 14, rounded(x.at(share)), "middle");
+    svg += text_at(across, kBottom + 14, rounded(x.at(share)), i == kTicks ? "end" : "middle");
   }
   return svg;
 }

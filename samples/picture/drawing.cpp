@@ -160,13 +160,14 @@ std::string balls_of(const Figure& figure, const Panel& panel, std::map<std::str
   return svg;
 }
 
+// Styles are of this picture alone, as a page may hold other ones.
 std::string head_of(int width, int height) {
   const std::string size = std::to_string(width) + " " + std::to_string(height);
-  std::string svg =
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + size + "\" width=\"" +
-      std::to_string(width / 10) + "\" height=\"" + std::to_string(height / 10) + "\">\n<style>\n" +
-      "text{font:150px sans-serif;fill:#444;text-anchor:middle}path{stroke-width:6;stroke-linejoin:round}" +
-      "circle{stroke-width:9}\n";
+  std::string svg = "<svg class=\"figure\" xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + size +
+                    "\" width=\"" + std::to_string(width / 10) + "\" height=\"" +
+                    std::to_string(height / 10) + "\">\n<style>\n" +
+                    ".figure text{font:150px sans-serif;fill:#444;text-anchor:middle}\n" +
+                    ".figure path{stroke-width:6;stroke-linejoin:round}.figure circle{stroke-width:9}\n";
   for (int shade = 0; shade < kShades; ++shade) {
     const std::string paint = clay(shade);
     svg += ".s" + std::to_string(shade) + "{fill:" + paint + ";stroke:" + paint + "}\n";
