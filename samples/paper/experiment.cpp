@@ -53,26 +53,31 @@ double apart(const picture::Point& a, const picture::Point& b) {
   return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
-// The turn that shows most of the surface around a point, with nothing in front of the point.
-double yaw_towards(picture::Figure figure, const picture::Point& point) {
-  double radius = 0, best = 0, most = -1;
+// Turns it to show most of the surface around a point, with nothing in front of the point; from below where that shows much more.
+void turn_towards(picture::Figure& shown_figure, const picture::Point& point) {
+  picture::Figure figure = shown_figure;
+  double radius = 0, most = -1;
   figure.heat.resize(figure.positions.size());
   for (const picture::Point& p : figure.positions) radius = std::max(radius, apart(p, point) / 5);
   for (size_t v = 0; v < figure.positions.size(); ++v) {
     figure.heat[v] = std::exp(-std::pow(apart(figure.positions[v], point) / radius, 2));
   }
   figure.marks = {{"point", point}};
-  for (figure.yaw = 0; figure.yaw < 360; figure.yaw += 30) {
-    const picture::Panel panel = picture::fit_into_panel(figure, 1000, 1000);
-    double shown = 0;
-    for (const picture::Patch& patch : panel.patches) {
-      const auto& [a, b, c] = patch.corners;
-      shown += patch.heat * std::fabs((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
+  const double level = figure.pitch;
+  for (const double pitch : {level, -level}) {
+    figure.pitch = pitch;
+    if (pitch != level) most *= 1.5;
+    for (figure.yaw = 0; figure.yaw < 360; figure.yaw += 30) {
+      const picture::Panel panel = picture::fit_into_panel(figure, 1000, 1000);
+      double shown = 0;
+      for (const picture::Patch& patch : panel.patches) {
+        const auto& [a, b, c] = patch.corners;
+        shown += patch.heat * std::fabs((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
+      }
+      if (picture::is_hidden(panel, 0)) shown /= 4;
+      if (shown > 1.02 * most) most = shown, shown_figure.yaw = figure.yaw, shown_figure.pitch = pitch;
     }
-    if (picture::is_hidden(panel, 0)) shown /= 4;
-    if (shown > 1.02 * most) most = shown, best = figure.yaw;
   }
-  return best;
 }
 
 void add_surface(const focal::Mesh& mesh, picture::Figure& figure) {
@@ -196,7 +201,7 @@ picture::Figure surface_figure(const focal::Mesh& mesh) {
   return figure;
 }
 
-void face(picture::Figure& figure, const picture::Point& point) { figure.yaw = yaw_towards(figure, point); }
+void face(picture::Figure& figure, const picture::Point& point) { turn_towards(figure, point); }
 
 void face_marks(picture::Figure& figure, const Marked& marked) {
   picture::Figure turning = surface_figure(marked.mesh);

@@ -64,7 +64,7 @@ std::string metrics(const Study& study) {
     const focal::Model model = learn(study.context, small, {.landmarks = {landmark}, .distance = d});
     picture::Figure& votes = figures[d + focal_distance_count()];
     votes = vote_figure(detect(model, test.mesh), test.mesh, question, name);
-    figures[d].yaw = votes.yaw = seen.yaw;
+    figures[d].yaw = votes.yaw = seen.yaw, figures[d].pitch = votes.pitch = seen.pitch;
   }
   return section("Fig. 4: distances",
                  "From landmark " + landmark +

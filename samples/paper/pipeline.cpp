@@ -31,7 +31,7 @@ std::string votes_as_samples_grow(const Study& study) {
     for (const int32_t count : counts) {
       figures.push_back(vote_figure(detect(study.model(preset), study.test().mesh, count), study.test().mesh,
                                     question, label_of(preset, std::to_string(count))));
-      figures.back().yaw = seen.yaw;
+      figures.back().yaw = seen.yaw, figures.back().pitch = seen.pitch;
     }
   return section(
       "Fig. 6: votes add up",

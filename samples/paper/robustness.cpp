@@ -39,7 +39,7 @@ void add_row(const Study& study, const focal::Model& model, const std::string& r
     } else {
       figures.push_back(vote_figure(detect(model, mesh), mesh, question, row + ", " + change.name));
     }
-    figures.back().yaw = seen.yaw;
+    figures.back().yaw = seen.yaw, figures.back().pitch = seen.pitch;
   }
 }
 
