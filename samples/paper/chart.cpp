@@ -18,7 +18,7 @@ std::string number(double value) {
 
 std::string rounded(double value) {
   char text[32];
-  std::snprintf(text, sizeof text, std::fabs(value) < 100 ? "%.2g" : "%.0f", value);
+  std::snprintf(text, sizeof text, std::fabs(value) < 100 ? "%.3g" : "%.0f", value);
   return text;
 }
 
