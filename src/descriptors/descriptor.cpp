@@ -4,8 +4,8 @@
 
 namespace focal {
 
-RowMatrix describe_spectrally(const DescribedSurface& surface, const Matrix& weights,
-                              std::span<const int32_t> vertices, const Execution& execution) {
+RowMatrix weighted_squares(const DescribedSurface& surface, const Matrix& weights,
+                           std::span<const int32_t> vertices, const Execution& execution) {
   RowMatrix result(vertices.size(), weights.cols());
   parallel_for_ranges(execution, result.rows(), 32, [&](int64_t begin, int64_t end) {
     for (int64_t i = begin; i < end; ++i)

@@ -31,9 +31,15 @@ struct DescriptorKind {
   Matrix (*spectral_weights)(const Vector& lambda, double area) = nullptr;
 };
 
-// What describes by spectral weights is.
-RowMatrix describe_spectrally(const DescribedSurface& surface, const Matrix& weights,
-                              std::span<const int32_t> vertices, const Execution& execution);
+// How those describe.
+RowMatrix weighted_squares(const DescribedSurface& surface, const Matrix& weights,
+                           std::span<const int32_t> vertices, const Execution& execution);
+template <Matrix (*weights)(const Vector& lambda, double area)>
+RowMatrix describe_spectrally(const DescribedSurface& surface, std::span<const int32_t> vertices,
+                              const Execution& execution) {
+  return weighted_squares(surface, weights(surface.basis.lambda, surface.operators.area), vertices,
+                          execution);
+}
 
 // All descriptors there are, one line each: the n-th line defines number n in focal.h, so lines are only ever added at the
 // end. A line `kind(NAME)` stands for a function `DescriptorKind NAME_descriptor()` in a file of its own.

@@ -20,14 +20,8 @@ Matrix weights(const Vector& lambda, double area) {
   return decay;
 }
 
-RowMatrix describe(const DescribedSurface& surface, std::span<const int32_t> vertices,
-                   const Execution& execution) {
-  return describe_spectrally(surface, weights(surface.basis.lambda, surface.operators.area), vertices,
-                             execution);
-}
-
 }  // namespace
 
-DescriptorKind hks_descriptor() { return {"hks", dimension, describe, weights}; }
+DescriptorKind hks_descriptor() { return {"hks", dimension, describe_spectrally<weights>, weights}; }
 
 }  // namespace focal

@@ -27,14 +27,8 @@ Matrix weights(const Vector& lambda, double area) {
   return result;
 }
 
-RowMatrix describe(const DescribedSurface& surface, std::span<const int32_t> vertices,
-                   const Execution& execution) {
-  return describe_spectrally(surface, weights(surface.basis.lambda, surface.operators.area), vertices,
-                             execution);
-}
-
 }  // namespace
 
-DescriptorKind wks_descriptor() { return {"wks", dimension, describe, weights}; }
+DescriptorKind wks_descriptor() { return {"wks", dimension, describe_spectrally<weights>, weights}; }
 
 }  // namespace focal

@@ -14,7 +14,8 @@ struct SurfaceQuery {
       normal;  // only triangles within 90 degrees of it count, so that thin parts keep their two sides; 0: all
 };
 
-// One a query. radius: where to look first, about twice the distance expected; widened until something is found.
+// One a query. radius: where a few queries look first, about twice the distance expected; widened until something is found.
+// Hundreds of queries go through a tree of triangles instead.
 std::vector<SurfacePoint> closest_points(const TriangleMesh& mesh, std::span<const SurfaceQuery> queries,
                                          double radius, const Execution& execution = Execution().inner());
 
