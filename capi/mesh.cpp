@@ -51,7 +51,7 @@ focal_mesh_params StructTraits<focal_mesh_params>::defaults() {
   focal_mesh_params params{};
   params.weld = prepare.weld;
   params.drop_degenerate = prepare.drop_degenerate;
-  params.bridge_components = prepare.bridge_components;
+  params.surface = static_cast<focal_surface>(prepare.analysed);
   params.lenient = prepare.lenient;
   params.allow_external_files = read.allow_external_files;
   params.keep_source_file = 1;
@@ -69,7 +69,7 @@ focal_mesh_params checked(const focal_mesh_params* given) {
   const focal_mesh_params params = read_struct(given);
   check_flag("focal_mesh_params.weld", params.weld);
   check_flag("focal_mesh_params.drop_degenerate", params.drop_degenerate);
-  check_flag("focal_mesh_params.bridge_components", params.bridge_components);
+  check_range("focal_mesh_params.surface", params.surface, FOCAL_SURFACE_AUTO, FOCAL_SURFACE_WRAPPED);
   check_flag("focal_mesh_params.allow_external_files", params.allow_external_files);
   check_flag("focal_mesh_params.keep_source_file", params.keep_source_file);
   // Vertices and triangles are counted in 32 bits inside.
@@ -140,7 +140,7 @@ void finish(MeshObject& object, TriangleMesh source, const focal_mesh_params& pa
   PrepareParams prepare_params;
   prepare_params.weld = params.weld != 0;
   prepare_params.drop_degenerate = params.drop_degenerate != 0;
-  prepare_params.bridge_components = params.bridge_components != 0;
+  prepare_params.analysed = static_cast<AnalysedSurface>(params.surface);
   prepare_params.lenient = params.lenient != 0;
   execution.begin_stage("repair", 0.5, 1);
   auto mesh = std::make_shared<const PreparedMesh>(prepare(std::move(source), prepare_params, execution));

@@ -187,11 +187,19 @@ typedef struct focal_surface_point {
   float barycentric[3];
 } focal_surface_point;
 
+/* What is analysed of a mesh. Landmarks, joints and weights always come back on the caller's own triangles. */
+typedef int32_t focal_surface;
+enum {
+  FOCAL_SURFACE_AUTO = 0,   /* WRAPPED where the mesh has several parts or many edges of more than two triangles */
+  FOCAL_SURFACE_AS_IS = 1,  /* its own triangles; separate parts are linked at their nearest vertices */
+  FOCAL_SURFACE_WRAPPED = 2 /* one closed surface round everything that the mesh shows from outside; default preset only */
+};
+
 typedef struct focal_mesh_params {
   uint32_t struct_size;
   int32_t weld;              /* merge vertices of exactly equal position (UV and normal splits). Default 1 */
   int32_t drop_degenerate;   /* drop triangles with a repeated corner and repeated triangles. Default 1 */
-  int32_t bridge_components; /* link the parts of a many-part character for the analysis. Default 1 */
+  focal_surface surface;     /* Default AUTO */
   /* The rest concerns glTF files only. */
   int32_t allow_external_files; /* also read .bin files beside a .gltf, inside its folder only. Default 0 */
   int32_t keep_source_file;     /* keep the file's bytes, so that results can be written into it. Default 1 */

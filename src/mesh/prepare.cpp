@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "mesh/components.h"
+#include "mesh/wrap.h"
 
 namespace focal {
 namespace {
@@ -188,6 +189,13 @@ void warn(PreparedMesh& mesh) {
   if (mesh.topology) warn_of_topology(mesh);
 }
 
+// Whether the triangles are no body by themselves: neighbours on the body do not share edges.
+bool needs_wrap(const PreparedMesh& mesh) {
+  constexpr double many = 0.02;  // of all edges
+  if (mesh.components > 1) return true;
+  return mesh.topology && static_cast<double>(mesh.topology->nonmanifold_edges) > many * mesh.surface.vertex_count();
+}
+
 // Not to the vertex at the origin that replace_invalid made of it.
 void forget(const std::vector<char>& invalid_vertices, PreparedMesh& mesh) {
   for (size_t v = 0; v < invalid_vertices.size(); ++v)
@@ -202,6 +210,11 @@ Vector3 renumbered(const PreparedMesh& mesh, int32_t surface_triangle, Vector3 b
 }
 
 }  // namespace
+
+PreparedMesh wrapped(const PreparedMesh& mesh, const Execution& execution) {
+  return prepare(wrap(mesh.surface, {}, execution).mesh,
+                 {.analysed = AnalysedSurface::as_it_is, .repair_orientation = false}, execution);
+}
 
 int64_t degenerate_triangles(const PreparedMesh& mesh) {
   return mesh.source.triangle_count() - mesh.surface.triangle_count() - mesh.invalid_triangles;
@@ -238,9 +251,11 @@ PreparedMesh prepare(TriangleMesh source, const PrepareParams& params, const Exe
   const Components components = components_of(mesh.surface);
   mesh.components = components.count;
   execution.check_cancelled();
-  if (params.bridge_components) mesh.bridges = bridge_pairs(mesh.surface, components);
-  execution.check_cancelled();
   if (params.repair_orientation) inspect(mesh);
+  mesh.is_wrapped = params.analysed == AnalysedSurface::wrapped ||
+                    (params.analysed == AnalysedSurface::automatic && needs_wrap(mesh));
+  execution.check_cancelled();
+  if (!mesh.is_wrapped) mesh.bridges = bridge_pairs(mesh.surface, components);
   execution.check_cancelled();
   warn(mesh);
   return mesh;

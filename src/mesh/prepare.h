@@ -13,10 +13,17 @@
 
 namespace focal {
 
+// What is analysed: the mesh's own triangles, or one closed surface round them (see wrap.h).
+enum class AnalysedSurface : int32_t {
+  automatic = 0,  // wrapped where the mesh has several parts, or many edges of more than two triangles
+  as_it_is = 1,
+  wrapped = 2
+};
+
 struct PrepareParams {
+  AnalysedSurface analysed = AnalysedSurface::automatic;
   bool weld = true;               // merge vertices of exactly equal position
   bool drop_degenerate = true;    // drop triangles with a repeated corner, and repeated triangles
-  bool bridge_components = true;  // link the parts of a many-part character (see bridges)
   // Leave out triangles with a NaN or infinite corner or an index out of range, instead of refusing the mesh.
   bool lenient = false;
   // Look at the topology and turn triangles over where they disagree; not needed for what is made of a prepared surface.
@@ -40,6 +47,7 @@ struct PreparedMesh {
   // heat and distances reach eyes, teeth and armour.
   std::vector<std::pair<int32_t, int32_t>> bridges;
   int32_t components = 1;             // separate parts
+  bool is_wrapped = false;            // see AnalysedSurface: make_proxy wraps the surface
   int64_t invalid_triangles = 0;      // left out by lenient
   bool is_oriented = true;            // see Orientation; where false, nothing tells left from right
   std::optional<Topology> topology;   // of the surface; empty where nobody looked
@@ -48,6 +56,9 @@ struct PreparedMesh {
 
 // Throws invalid_mesh (no triangles, index out of range, NaN or infinite position), mesh_too_small, cancelled.
 PreparedMesh prepare(TriangleMesh source, const PrepareParams& params = {}, const Execution& execution = {});
+
+// The surface wrapped, prepared as it is; its source lies in the coordinates of mesh.surface.
+PreparedMesh wrapped(const PreparedMesh& mesh, const Execution& execution = {});
 
 int64_t degenerate_triangles(const PreparedMesh& mesh);  // with a repeated corner, or repeated: left out
 int64_t flipped_triangles(const PreparedMesh& mesh);

@@ -6,6 +6,7 @@
 #include "mesh/decimate.h"
 #include "mesh/fill_holes.h"
 #include "mesh/nearest_vertex.h"
+#include "mesh/wrap.h"
 
 namespace focal {
 namespace {
@@ -28,6 +29,12 @@ Vector3 normal_of(const TriangleMesh& mesh, int32_t t) {
 
 Proxy make_proxy(std::shared_ptr<const PreparedMesh> mesh, int32_t vertices, const Execution& execution,
                  bool fills_holes) {
+  if (mesh->is_wrapped) {
+    TriangleMesh shell = wrap(mesh->surface, {}, execution).mesh;
+    if (vertices > 0 && shell.vertex_count() > worth_it * vertices) shell = decimate(shell, vertices, execution);
+    return {mesh, std::make_shared<const PreparedMesh>(prepare(
+                      std::move(shell), {.analysed = AnalysedSurface::as_it_is, .repair_orientation = false}))};
+  }
   const bool may_have_holes = !mesh->topology || mesh->topology->boundary_loops > 0;
   const FilledMesh filled = fills_holes && may_have_holes ? fill_holes(mesh->surface) : FilledMesh{};
   const TriangleMesh& surface = filled.holes > 0 ? filled.mesh : mesh->surface;
@@ -36,7 +43,7 @@ Proxy make_proxy(std::shared_ptr<const PreparedMesh> mesh, int32_t vertices, con
   TriangleMesh coarse = is_small ? surface : decimate(surface, vertices, execution);
   if (!is_small && has_collapsed(coarse, vertices)) return {mesh, mesh};
   return {mesh,
-          std::make_shared<const PreparedMesh>(prepare(std::move(coarse), {.repair_orientation = false})),
+          std::make_shared<const PreparedMesh>(prepare(std::move(coarse), {.analysed = AnalysedSurface::as_it_is, .repair_orientation = false})),
           filled.holes};
 }
 

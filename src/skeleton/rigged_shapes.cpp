@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "mesh/closest_point.h"
 #include "mesh/similarity.h"
 #include "skeleton/rig_landmarks.h"
 
@@ -98,6 +99,30 @@ ShapeRig shape_rig(const RiggedMesh& character, const std::vector<SkeletonJoint>
   return result;
 }
 
+// The character's outer shell with the skin of the nearest triangles, in the caller's coordinates.
+RiggedMesh wrapped(const RiggedMesh& character, const Execution& execution) {
+  const PreparedMesh& mesh = *character.mesh;
+  TriangleMesh shell = focal::wrapped(mesh, execution).source;
+  std::vector<SurfaceQuery> queries;
+  for (int32_t v = 0; v < shell.vertex_count(); ++v)
+    queries.push_back({shell.positions.row(v).transpose(), Vector3::Zero()});
+  const auto nearest = closest_points(mesh.surface, queries, 0.02, execution);
+  RiggedMesh result{nullptr, {character.rig.joints, {}}};
+  for (const SurfacePoint& point : nearest) {
+    std::vector<Influence> influences;
+    for (int c = 0; c < 3; ++c)
+      for (Influence one : character.rig.influences[mesh.source_vertex[mesh.surface.triangles(point.triangle, c)]]) {
+        one.weight *= static_cast<float>(point.barycentric[c]);
+        influences.push_back(one);
+      }
+    result.rig.influences.push_back(heaviest(influences));
+  }
+  shell.positions = (mesh.scale * shell.positions).rowwise() + mesh.centre.transpose();
+  result.mesh = std::make_shared<const PreparedMesh>(
+      prepare(std::move(shell), {.analysed = AnalysedSurface::as_it_is, .repair_orientation = false}, execution));
+  return result;
+}
+
 // What a joint does to the vertices it moves: turned and scaled about its place, its children carried along.
 std::vector<Matrix4> random_motion(const std::vector<SkeletonJoint>& skeleton, const ShapeRig& rig,
                                    Random& random) {
@@ -161,8 +186,11 @@ MarkedShape posed(const MarkedShape& shape, const std::vector<SkeletonJoint>& sk
 
 }  // namespace
 
-TrainingSet training_set_of(const std::vector<RiggedMesh>& characters, const RiggedShapesParams& params,
+TrainingSet training_set_of(const std::vector<RiggedMesh>& given, const RiggedShapesParams& params,
                             const Execution& execution) {
+  std::vector<RiggedMesh> characters = given;
+  for (RiggedMesh& character : characters)
+    if (character.mesh->is_wrapped) character = wrapped(character, execution);
   if (characters.empty())
     throw Error(Status::invalid_argument, "there is no rigged character to learn from", "add one");
   TrainingSet set;

@@ -230,7 +230,7 @@ static focal_status load_nothing(const focal_mesh_params* params) {
 static void check_ranges(void) {
   MESH(weld, -1, 0, 1, 2);
   MESH(drop_degenerate, -1, 0, 1, 2);
-  MESH(bridge_components, -1, 0, 1, 2);
+  MESH(surface, -1, 0, 2, 3);
   MESH(allow_external_files, -1, 0, 1, 2);
   MESH(keep_source_file, -1, 0, 1, 2);
   MESH(lenient, -1, 0, 1, 2);

@@ -143,7 +143,7 @@ class focal_mesh_params(Structure):
         ("struct_size", c_uint32),
         ("weld", c_int32),
         ("drop_degenerate", c_int32),
-        ("bridge_components", c_int32),
+        ("surface", c_int32),
         ("allow_external_files", c_int32),
         ("keep_source_file", c_int32),
         ("max_vertices", c_uint64),

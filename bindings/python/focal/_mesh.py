@@ -51,7 +51,7 @@ class Mesh(Handle):
     _kind = "mesh"
 
     def __init__(self, vertices: Any, faces: Any, *, weld: bool | None = None, drop_degenerate: bool | None = None,
-                 bridge_components: bool | None = None, lenient: bool | None = None,
+                 surface: Surface | int | None = None, lenient: bool | None = None,
                  max_vertices: int | None = None, max_triangles: int | None = None,
                  context: Context | None = None, task: Task | None = None) -> None:
         positions = block_of(vertices, "vertices", "f", 3)
@@ -61,13 +61,13 @@ class Mesh(Handle):
         desc.positions, desc.vertex_count = positions.pointer, positions.rows
         desc.indices, desc.index_count = indices.pointer, 3 * indices.rows
         params = fill(new(_abi.focal_mesh_params), weld=weld, drop_degenerate=drop_degenerate,
-                      bridge_components=bridge_components, lenient=lenient, max_vertices=max_vertices,
+                      surface=surface, lenient=lenient, max_vertices=max_vertices,
                       max_triangles=max_triangles)
         self._take(_made(params, task, "focal_mesh_create", running._handle, ctypes.byref(desc)), running)
 
     @classmethod
     def load(cls, path: str | os.PathLike[str], *, weld: bool | None = None, drop_degenerate: bool | None = None,
-             bridge_components: bool | None = None, lenient: bool | None = None,
+             surface: Surface | int | None = None, lenient: bool | None = None,
              allow_external_files: bool | None = None,
              keep_source_file: bool | None = None, max_vertices: int | None = None,
              max_triangles: int | None = None, max_nodes: int | None = None, max_json_bytes: int | None = None,
@@ -85,7 +85,7 @@ class Mesh(Handle):
         Error: FILE_NOT_FOUND, IO, INVALID_FILE, UNSUPPORTED, and those of Mesh.
         """
         params = fill(new(_abi.focal_mesh_params), weld=weld, drop_degenerate=drop_degenerate,
-                      bridge_components=bridge_components, lenient=lenient, allow_external_files=allow_external_files,
+                      surface=surface, lenient=lenient, allow_external_files=allow_external_files,
                       keep_source_file=keep_source_file, max_vertices=max_vertices, max_triangles=max_triangles,
                       max_nodes=max_nodes, max_json_bytes=max_json_bytes, max_file_bytes=max_file_bytes,
                       pose_animation=pose_animation, pose_time=pose_time)
@@ -94,7 +94,7 @@ class Mesh(Handle):
 
     @classmethod
     def from_bytes(cls, data: Any, *, weld: bool | None = None, drop_degenerate: bool | None = None,
-                   bridge_components: bool | None = None, lenient: bool | None = None,
+                   surface: Surface | int | None = None, lenient: bool | None = None,
                    keep_source_file: bool | None = None,
                    max_vertices: int | None = None, max_triangles: int | None = None, max_nodes: int | None = None,
                    max_json_bytes: int | None = None, max_file_bytes: int | None = None,
@@ -102,7 +102,7 @@ class Mesh(Handle):
                    context: Context | None = None, task: Task | None = None) -> Mesh:
         """The same from the bytes of a file (bytes-like); external files are refused."""
         params = fill(new(_abi.focal_mesh_params), weld=weld, drop_degenerate=drop_degenerate,
-                      bridge_components=bridge_components, lenient=lenient, keep_source_file=keep_source_file,
+                      surface=surface, lenient=lenient, keep_source_file=keep_source_file,
                       max_vertices=max_vertices, max_triangles=max_triangles, max_nodes=max_nodes,
                       max_json_bytes=max_json_bytes, max_file_bytes=max_file_bytes, pose_animation=pose_animation,
                       pose_time=pose_time)
