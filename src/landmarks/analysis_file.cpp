@@ -53,7 +53,7 @@ Proxy read_proxy(ByteReader in, std::shared_ptr<const PreparedMesh> full) {
     mesh.triangles.data()[i] = in.i32("corner", 0, vertices - 1);
   in.expect_end();
   if (vertices == 0) return {full, full};
-  return {full, std::make_shared<const PreparedMesh>(prepare(std::move(mesh), {.repair_orientation = false})),
+  return {full, std::make_shared<const PreparedMesh>(prepare(std::move(mesh), {.analysed = AnalysedSurface::as_it_is, .repair_orientation = false})),
           0};
 }
 
@@ -130,6 +130,7 @@ SurfaceAnalysis parse_analysis(std::span<const std::byte> file, std::shared_ptr<
   analysis.proxy = read_proxy(archive.section("PRXY"), std::move(mesh));
   analysis.proxy.filled_holes = filled_holes;
   make_solvers(analysis, execution);
+  describe_relief(analysis, execution);
   analysis.eigenfunctions = read_eigenfunctions(archive.section("EIGN"), analysis.surface().vertex_count());
   read_samples(archive.section("SMPL"), analysis);
   return analysis;

@@ -68,6 +68,22 @@ std::vector<int32_t> first_images(const AtlasShape& shape, float reach, const st
   return images;
 }
 
+// Mean over the radii of the correlation by area.
+float bulge_agreement(const AtlasShape& shape, const FunctionalMap& map, const SurfaceAnalysis& analysis) {
+  const Eigen::Index points = shape.bulge.rows();
+  if (points == 0 || analysis.bulge.rows() == 0) return 0;
+  const Eigen::VectorXf weight = shape.samples.weight.head(points) / shape.samples.weight.head(points).sum();
+  float sum = 0;
+  for (Eigen::Index r = 0; r < shape.bulge.cols(); ++r) {
+    Eigen::VectorXf there = shape.bulge.col(r), here(points);
+    for (Eigen::Index i = 0; i < points; ++i) here[i] = analysis.bulge(map.image[i], r);
+    there.array() -= weight.dot(there), here.array() -= weight.dot(here);
+    const float size = std::sqrt(weight.dot(there.cwiseAbs2()) * weight.dot(here.cwiseAbs2()));
+    if (size > 0) sum += weight.dot(there.cwiseProduct(here)) / size;
+  }
+  return sum / static_cast<float>(shape.bulge.cols());
+}
+
 CarriedMarks carry(const AtlasShape& shape, const FunctionalMap& map, const SurfaceAnalysis& analysis,
                    const std::vector<std::vector<int32_t>>& triangles_at) {
   const auto L = static_cast<int32_t>(shape.marked.size());
@@ -77,6 +93,7 @@ CarriedMarks carry(const AtlasShape& shape, const FunctionalMap& map, const Surf
   });
   CarriedMarks result;
   result.residual = map.residual;
+  result.bulge_agreement = bulge_agreement(shape, map, analysis);
   result.point.resize(L);
   for (int32_t l = 0; l < L; ++l)
     if (shape.marked[l])
@@ -152,20 +169,22 @@ AtlasShape remember_shape(const SurfaceAnalysis& analysis,
           static_cast<uint16_t>(std::lround(std::min(fields(field, spread[i]) / reach, 1.0f) * target_steps));
     ++field;
   }
+  shape.bulge.resize(count, analysis.bulge.cols());
+  for (Eigen::Index i = 0; i < count; ++i) shape.bulge.row(i) = analysis.bulge.row(spread[i]);
   shape.step = std::max(shape.samples.Phi.cwiseAbs().maxCoeff(), 1e-6f) / (atlas_zero - 1);
   for (float& value : shape.samples.Phi.reshaped()) value = std::round(value / shape.step) * shape.step;
   if (rig) remember_rig(analysis, spread, *rig, shape);
   return shape;
 }
 
-std::vector<ShapeMap> map_shapes(const std::vector<AtlasShape>& atlas, float reach,
+std::vector<ShapeMap> map_shapes(const std::vector<AtlasShape>& atlas, std::span<const int32_t> among, float reach,
                                  const SurfaceAnalysis& analysis, const std::vector<int32_t>& landmark,
                                  const RowMatrixf& fields, const CarryParams& params,
                                  const Execution& execution) {
   const SpectralTargets targets = spectral_targets(analysis, params.spread);
-  std::vector<Start> starts(atlas.size());
-  parallel_for(execution, static_cast<int64_t>(atlas.size()), [&](int64_t s) {
-    starts[s] = {static_cast<int32_t>(s), first_images(atlas[s], reach, landmark, fields, targets.spread)};
+  std::vector<Start> starts(among.size());
+  parallel_for(execution, static_cast<int64_t>(among.size()), [&](int64_t s) {
+    starts[s] = {among[s], first_images(atlas[among[s]], reach, landmark, fields, targets.spread)};
   });
   if (params.most_alike > 0 && params.most_alike < static_cast<int32_t>(starts.size()))
     starts = most_alike(std::move(starts), atlas, analysis, targets, params, execution);
@@ -173,17 +192,25 @@ std::vector<ShapeMap> map_shapes(const std::vector<AtlasShape>& atlas, float rea
   parallel_for(execution, static_cast<int64_t>(starts.size()), [&](int64_t i) {
     const AtlasShape& shape = atlas[starts[i].shape];
     MapParams map = params.map;
-    map.exact_from = params.exact_points ? 0 : static_cast<int32_t>(shape.distances.rows());
+    map.exact_from = static_cast<int32_t>(shape.distances.rows());
     result[i] = {starts[i].shape, refined(shape, analysis, targets, std::move(starts[i].images), map)};
   });
   return result;
 }
 
-std::vector<CarriedMarks> carry_marks(const std::vector<AtlasShape>& atlas, float reach,
-                                      const SurfaceAnalysis& analysis, const std::vector<int32_t>& landmark,
-                                      const RowMatrixf& fields, const CarryParams& params,
-                                      const Execution& execution) {
-  const auto maps = map_shapes(atlas, reach, analysis, landmark, fields, params, execution);
+void find_exact_images(std::vector<ShapeMap>& maps, const std::vector<AtlasShape>& atlas, const SurfaceAnalysis& analysis,
+                       const Execution& execution) {
+  parallel_for(execution, static_cast<int64_t>(maps.size()), [&](int64_t m) {
+    FunctionalMap& map = maps[m].map;
+    const AtlasShape& shape = atlas[maps[m].shape];
+    const auto images = nearest_rows(shape.samples.Phi.topLeftCorner(shape.distances.rows(), map.C.rows()),
+                                     analysis.eigenfunctions.leftCols(map.C.cols()) * map.C.transpose());
+    std::copy(images.begin(), images.end(), map.image.begin());
+  });
+}
+
+std::vector<CarriedMarks> carry_marks(const std::vector<AtlasShape>& atlas, const std::vector<ShapeMap>& maps,
+                                      const SurfaceAnalysis& analysis, const Execution& execution) {
   const auto triangles_at = triangles_round(analysis.surface());
   std::vector<CarriedMarks> result(maps.size());
   parallel_for(execution, static_cast<int64_t>(maps.size()), [&](int64_t i) {

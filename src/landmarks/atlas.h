@@ -19,12 +19,11 @@ AtlasShape remember_shape(const SurfaceAnalysis& analysis,
 struct CarriedMarks {
   std::vector<std::optional<SurfacePoint>> point;  // one a landmark, where it is marked on the training shape
   float residual = 0;                              // of the map: small where the shapes are alike
+  float bulge_agreement = 0;  // correlation of how both surfaces bulge at the points and their images, -1..1
 };
 
 struct CarryParams {
   MapParams map;  // exact_from is set here
-  bool exact_points =
-      false;               // points too, not only marks, go to the nearest of all vertices in the last round
   int32_t spread = 1000;   // vertices that stand for all of them until the last round
   int32_t most_alike = 0;  // carry from so many shapes only, those whose coarse maps fit best; 0: from all
 };
@@ -35,17 +34,19 @@ struct ShapeMap {
   FunctionalMap map;  // its points, then its marks, to vertices of the surface
 };
 
-// landmark: those placed so far, which the maps start from; fields: the distances of all vertices from them, in this order.
+// among: numbers of the shapes to map. landmark: those placed so far, which the maps start from; fields: the distances of all vertices from them, in this order.
 // One entry a shape that was mapped.
-std::vector<ShapeMap> map_shapes(const std::vector<AtlasShape>& atlas, float reach,
+std::vector<ShapeMap> map_shapes(const std::vector<AtlasShape>& atlas, std::span<const int32_t> among, float reach,
                                  const SurfaceAnalysis& analysis, const std::vector<int32_t>& landmark,
                                  const RowMatrixf& fields, const CarryParams& params,
                                  const Execution& execution);
 
-// The same, and what each says of the landmarks.
-std::vector<CarriedMarks> carry_marks(const std::vector<AtlasShape>& atlas, float reach,
-                                      const SurfaceAnalysis& analysis, const std::vector<int32_t>& landmark,
-                                      const RowMatrixf& fields, const CarryParams& params,
-                                      const Execution& execution);
+// Moves the points' images, which lie at vertices that stand for all, to the nearest of all.
+void find_exact_images(std::vector<ShapeMap>& maps, const std::vector<AtlasShape>& atlas, const SurfaceAnalysis& analysis,
+                       const Execution& execution);
+
+// What each of the maps says of the landmarks.
+std::vector<CarriedMarks> carry_marks(const std::vector<AtlasShape>& atlas, const std::vector<ShapeMap>& maps,
+                                      const SurfaceAnalysis& analysis, const Execution& execution);
 
 }  // namespace focal

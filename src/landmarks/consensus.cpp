@@ -81,11 +81,10 @@ std::vector<Opinion> opinions_on(int32_t landmark, const SurfacePoint& own, doub
   return opinions;
 }
 
-// What the training shapes say when their maps start from the landmarks that were not left out; nothing when those are
+// Maps of the training shapes that start from the landmarks that were not left out; nothing when those are
 // too few to start from.
-std::vector<CarriedMarks> carried_from(const LandmarkModel& model, const SurfaceAnalysis& analysis,
-                                       const Placement& placement, const CarryParams& params,
-                                       const Execution& execution) {
+std::vector<ShapeMap> maps_from(const LandmarkModel& model, const SurfaceAnalysis& analysis,
+                                const Placement& placement, const CarryParams& params, const Execution& execution) {
   std::vector<int32_t> trusted;
   std::vector<SurfacePoint> starts;
   for (size_t l = 0; l < placement.vertex.size(); ++l) {
@@ -93,8 +92,8 @@ std::vector<CarriedMarks> carried_from(const LandmarkModel& model, const Surface
     trusted.push_back(static_cast<int32_t>(l)), starts.push_back(placement.point[l]);
   }
   if (model.atlas.empty() || trusted.size() < 3) return {};
-  return carry_marks(model.atlas, model.reach, analysis, trusted,
-                     analysis.metric->distances(starts, execution), params, execution);
+  return map_shapes(model.atlas, placement.exemplars, model.reach, analysis, trusted,
+                    analysis.metric->distances(starts, execution), params, execution);
 }
 
 float mean_residual(const std::vector<CarriedMarks>& carried) {
@@ -103,20 +102,30 @@ float mean_residual(const std::vector<CarriedMarks>& carried) {
   return sum;
 }
 
+float mean_bulge_agreement(const std::vector<CarriedMarks>& carried) {
+  float sum = 0;
+  for (const auto& shape : carried) sum += shape.bulge_agreement / static_cast<float>(carried.size());
+  return sum;
+}
+
 }  // namespace
 
-double quick_map_residual(const LandmarkModel& model, const SurfaceAnalysis& analysis,
-                          const Placement& placement, const Execution& execution) {
-  const auto carried = carried_from(model, analysis, placement, quick, execution);
-  return carried.empty() ? std::numeric_limits<double>::infinity() : mean_residual(carried);
+MapFit quick_map_fit(const LandmarkModel& model, const SurfaceAnalysis& analysis, const Placement& placement,
+                     const Execution& execution) {
+  const auto carried =
+      carry_marks(model.atlas, maps_from(model, analysis, placement, quick, execution), analysis, execution);
+  if (carried.empty()) return {std::numeric_limits<double>::infinity(), 0};
+  return {mean_residual(carried), mean_bulge_agreement(carried)};
 }
 
 void join_carried_marks(const LandmarkModel& model, const SurfaceAnalysis& analysis, Quality quality,
                         Placement& placement, const Execution& execution) {
   const bool best = quality == Quality::best;
-  const auto carried = carried_from(model, analysis, placement, best ? thorough : quick, execution);
+  auto maps = maps_from(model, analysis, placement, best ? thorough : quick, execution);
+  const auto carried = carry_marks(model.atlas, maps, analysis, execution);
   if (carried.empty()) return;
-  if (best) placement.map_residual = mean_residual(carried);
+  if (best) placement.map_residual = mean_residual(carried), placement.maps = std::move(maps);
+  placement.bulge_agreement = mean_bulge_agreement(carried);
   std::vector<int32_t> placed;
   for (size_t l = 0; l < placement.vertex.size(); ++l)
     if (placement.vertex[l] >= 0) placed.push_back(static_cast<int32_t>(l));

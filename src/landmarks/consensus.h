@@ -9,11 +9,15 @@ namespace focal {
 
 // Moves each placed landmark to where its own place and the marks carried over from all training shapes agree, and records
 // in its evidence how well they do. Quality `interactive` asks a few shapes in fewer rounds and leaves the evidence as it is.
+// The maps of quality `best` stay in the placement.
 void join_carried_marks(const LandmarkModel& model, const SurfaceAnalysis& analysis, Quality quality,
                         Placement& placement, const Execution& execution);
 
-// How far the maps of a few training shapes, started from the placement, are from fitting; less is better.
-double quick_map_residual(const LandmarkModel& model, const SurfaceAnalysis& analysis,
-                          const Placement& placement, const Execution& execution);
+// How well the maps of a few training shapes, started from the placement, fit.
+struct MapFit {
+  double residual = 0, bulge_agreement = 0;  // means, see CarriedMarks
+};
+MapFit quick_map_fit(const LandmarkModel& model, const SurfaceAnalysis& analysis, const Placement& placement,
+                     const Execution& execution);
 
 }  // namespace focal

@@ -113,6 +113,7 @@ Detection detect_afresh(const std::shared_ptr<const LandmarkModel>& model,
                         const Execution& execution) {
   execution.begin_stage("analysis", 0, 0.4);
   auto analysis = std::make_shared<SurfaceAnalysis>(analyse_for(model->params, mesh, params, execution));
+  if (model->params.oriented && !analysis->on_backend) keep_distances(*analysis, execution);  // voted with once a heading
   Detection result = detect(model, *analysis, params, execution);
   result.seconds.proxy = analysis->proxy_seconds;
   result.seconds.spectrum = analysis->spectrum_seconds;
@@ -188,7 +189,7 @@ Detection detect(std::shared_ptr<const LandmarkModel> model, const SurfaceAnalys
   Detection result;
   const bool paper = model->params.preset == Preset::paper;
   execution.begin_stage("votes", 0.4, 0.9);
-  const Placement placement =
+  Placement placement =
       paper ? place_landmarks_paper(*model, analysis, params, execution, result.seconds)
             : place_landmarks(*model, analysis, params.max_samples, params, execution, result.seconds);
   execution.begin_stage("landmarks", 0.9, 1);
@@ -201,6 +202,9 @@ Detection detect(std::shared_ptr<const LandmarkModel> model, const SurfaceAnalys
     if (placement.vertex[l] < 0 || result.landmarks[l].status == LandmarkStatus::absent)
       result.places[l].triangle = -1;
   result.seconds.refine += mapping.lap();
+  result.exemplars = placement.exemplars;
+  result.maps = std::move(placement.maps), result.map_residual = placement.map_residual;
+  result.bulge_agreement = placement.bulge_agreement, result.runner_up = placement.runner_up;
   result.category_fit = judgement.category_fit;
   if (const char* warning = analysis.metric->warning()) result.warnings.emplace_back(warning);
   if (!paper && !analysis.proxy.full->is_oriented)

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "landmarks/atlas.h"
 #include "landmarks/landmark_model.h"
 #include "landmarks/params.h"
 #include "landmarks/surface_analysis.h"
@@ -44,6 +45,10 @@ struct Detection {
   // triangle -1 where it is absent. No analysis where detection was handed one.
   std::shared_ptr<const SurfaceAnalysis> analysis;
   std::vector<SurfacePoint> places;
+  std::vector<int32_t> exemplars;  // training shapes that are most like it
+  std::vector<ShapeMap> maps;  // from training shapes, with quality `best`
+  float map_residual = 0, bulge_agreement = 0;  // see Placement
+  double runner_up = 0;
   RowMatrixf votes;  // landmarks x vertices of proxy.coarse->surface, each row's largest is 1; may be empty
   double category_fit = 0;            // 0..1
   std::vector<std::string> warnings;  // beside those of the mesh

@@ -7,14 +7,16 @@
 
 #include "base/archive.h"
 #include "base/error.h"
+#include "descriptors/bulge.h"
 #include "descriptors/descriptor.h"
+#include "landmarks/features.h"
 #include "landmarks/forest_file.h"
 #include "landmarks/method_section.h"
 
 namespace focal {
 namespace {
 
-constexpr ArchiveKind kind{"FOCALMDL", "model", 1, 1};
+constexpr ArchiveKind kind{"FOCALMDL", "model", 1, 2};
 constexpr int32_t landmark_limit = 4096, name_limit = 4096, joint_limit = 4096;
 constexpr int32_t most = std::numeric_limits<int32_t>::max();
 constexpr float any_number = 1e9F;  // of learned coefficients: finite, and no sum of a few overflows
@@ -131,7 +133,7 @@ void read_forests(ByteReader in, LandmarkModel& model) {
   const auto samples = static_cast<int32_t>(model.targets.rows());
   for (int32_t f = 0; f < count; ++f)
     model.forests.push_back(read_forest(in, leaves, model.params.tree_count, samples,
-                                        descriptor_kinds()[model.params.descriptor].dimension));
+                                        feature_count(model.params)));
   in.expect_end();
 }
 
@@ -317,6 +319,64 @@ void read_skeleton(ByteReader in, LandmarkModel& model) {
   in.expect_end();
 }
 
+// --- FEAT: what the forest knows of a point beside its signature
+
+void write_features(const LandmarkModel& model, ByteWriter& out) {
+  out.u8(model.params.bulge), out.u8(model.params.oriented);
+}
+
+void read_features(ByteReader in, LandmarkModel& model) {
+  model.params.bulge = in.u8("bulge") != 0, model.params.oriented = in.u8("orientation") != 0;
+  in.expect_end();
+}
+
+// --- EXMP: the shapes of the atlas one by one: which samples are theirs, how they bulge, where their marks lie to each other
+
+constexpr float bulge_steps = 32767, direction_steps = 127, most_direction = 2;
+
+void write_exemplars(const LandmarkModel& model, ByteWriter& out) {
+  const auto L = static_cast<Eigen::Index>(model.landmark_names.size());
+  for (const int32_t shape : model.sample_shape) out.u16(static_cast<uint16_t>(shape));
+  for (const AtlasShape& shape : model.atlas) {
+    out.u8(static_cast<uint8_t>(shape.bulge.cols()));
+    for (const float value : shape.bulge.reshaped<Eigen::RowMajor>())
+      out.u16(static_cast<uint16_t>(std::lround(std::clamp(value, -1.0F, 1.0F) * bulge_steps) + bulge_steps));
+    const ConstellationSample& sample = shape.constellation;
+    out.u8(sample.handed);
+    for (Eigen::Index i = 0; i < L * L; ++i) {
+      out.f32(sample.distance.data()[i]);
+      for (const RowMatrixf* way : {&sample.directions.x, &sample.directions.y})
+        out.u8(static_cast<uint8_t>(
+            std::lround(std::clamp(way->data()[i] / most_direction, -1.0F, 1.0F) * direction_steps) + direction_steps));
+    }
+  }
+}
+
+void read_exemplars(ByteReader in, LandmarkModel& model) {
+  const auto L = static_cast<Eigen::Index>(model.landmark_names.size());
+  const auto shapes = static_cast<int32_t>(model.atlas.size());
+  for (Eigen::Index s = 0; s < model.targets.rows(); ++s) {
+    model.sample_shape.push_back(in.u16("shape of a sample"));
+    if (model.sample_shape.back() >= shapes) in.fail("a sample is of no shape");
+  }
+  for (AtlasShape& shape : model.atlas) {
+    const int32_t radii = in.u8("radii");
+    if (radii != 0 && radii != static_cast<int32_t>(bulge_radii.size())) in.fail("the radii are not those of the method");
+    shape.bulge.resize(shape.distances.rows(), radii);
+    for (float& value : shape.bulge.reshaped<Eigen::RowMajor>()) value = (static_cast<float>(in.u16("bulge")) - bulge_steps) / bulge_steps;
+    ConstellationSample& sample = shape.constellation;
+    sample.present = shape.marked;
+    sample.handed = in.u8("handed") != 0;
+    sample.distance.resize(L, L), sample.directions.x.resize(L, L), sample.directions.y.resize(L, L);
+    for (Eigen::Index i = 0; i < L * L; ++i) {
+      sample.distance.data()[i] = in.f32("distance of landmarks", 0, longest);
+      for (RowMatrixf* way : {&sample.directions.x, &sample.directions.y})
+        way->data()[i] = (static_cast<float>(in.u8("direction")) - direction_steps) / direction_steps * most_direction;
+    }
+  }
+  in.expect_end();
+}
+
 // Reading goes in this order: what later sections are checked against comes first.
 struct Section {
   const char* name;
@@ -324,15 +384,23 @@ struct Section {
   void (*read)(ByteReader, LandmarkModel&);
 };
 constexpr Section sections[] = {
-    {"INFO", write_info, read_info},         {"TRGT", write_targets, read_targets},
+    {"INFO", write_info, read_info},         {"FEAT", write_features, read_features},
+    {"TRGT", write_targets, read_targets},
     {"FRST", write_forests, read_forests},   {"CNST", write_constellation, read_constellation},
     {"ATLS", write_atlas, read_atlas},       {"CALB", write_calibration, read_calibration},
-    {"SKEL", write_skeleton, read_skeleton},
+    {"SKEL", write_skeleton, read_skeleton}, {"EXMP", write_exemplars, read_exemplars},
 };
 
-// Models of marked shapes have no skeleton: their files lack the section.
+// Models of marked shapes have no skeleton, those of preset paper and of old versions no features and exemplars: their files lack the
+// sections.
 bool is_written(const Section& section, const LandmarkModel& model) {
-  return section.write != write_skeleton || !model.skeleton.empty();
+  if (section.write == write_skeleton) return !model.skeleton.empty();
+  if (section.write == write_features) return model.params.bulge || model.params.oriented;
+  return section.write != write_exemplars || !model.sample_shape.empty();
+}
+
+bool may_lack(const Section& section) {
+  return section.read == read_skeleton || section.read == read_features || section.read == read_exemplars;
 }
 
 }  // namespace
@@ -354,9 +422,10 @@ LandmarkModel parse_model(std::span<const std::byte> file) {
   const Archive archive(kind, file);
   LandmarkModel model;
   const Method method = read_method(archive);
+  model.params.bulge = model.params.oriented = false;  // unless the file says so
   model.params.descriptor = method.descriptor, model.params.distance = method.distance;
   for (const Section& section : sections)
-    if (section.read != read_skeleton || archive.has(section.name))
+    if (!may_lack(section) || archive.has(section.name))
       section.read(archive.section(section.name), model);
   return model;
 }

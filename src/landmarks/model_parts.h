@@ -38,6 +38,8 @@ struct AtlasShape {
   // Of a rigged shape: where the points lie, in the coordinates of its surface, and its rig with one entry of influences a point.
   MatrixX3 positions;
   std::optional<ShapeRig> rig;
+  RowMatrixf bulge;                   // points x radii, see descriptors/bulge.h; empty in old models
+  ConstellationSample constellation;  // of its marks; nothing in old models
 };
 
 struct LandmarkModel : std::enable_shared_from_this<LandmarkModel> {
@@ -50,6 +52,7 @@ struct LandmarkModel : std::enable_shared_from_this<LandmarkModel> {
   std::vector<RegressionForest> forests;
   TargetMatrix targets;  // samples x landmarks
   float reach = 0;       // largest target, of sqrt(area)
+  std::vector<int32_t> sample_shape;  // per row of targets: the shape of the atlas that it is of, or a copy of; empty in old models
   std::vector<AtlasShape> atlas;
   ConstellationStatistics constellation;
   Calibration calibration;

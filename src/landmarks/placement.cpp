@@ -7,7 +7,10 @@
 #include "base/stopwatch.h"
 #include "landmarks/backend_surface.h"
 #include "landmarks/consensus.h"
+#include "landmarks/exemplars.h"
+#include "landmarks/features.h"
 #include "landmarks/leaf_votes.h"
+#include "landmarks/orientation.h"
 #include "landmarks/refine.h"
 #include "mesh/fill_holes.h"
 #include "mesh/nearest_vertex.h"
@@ -23,20 +26,26 @@ constexpr double disc_radius = 0.04;      // of the tangent directions, likewise
 // Of the maps' residual against the constellation's energy, where several constellations come near the best. On whole and
 // spoiled training shapes left out (six categories, 480 pairs of which one was right), 800 mended 11 and spoiled 2.
 constexpr double residual_weight = 800;
+// Likewise of the correlation of how the surfaces bulge, and of the mean logarithm of the best votes.
+constexpr double bulge_weight = 80, level_weight = 10;
+// Where a heading is supposed, votes are nearly right: fewer candidates and starts do.
+constexpr int32_t oriented_peaks = 5, oriented_restarts = 12;
+constexpr double energy_margin = 20;  // hypotheses that cost more than the best by this are not looked at
 
 // Votes of the first `count` samples, vertices x landmarks.
-RowMatrixf cast_votes(const LandmarkModel& model, const SurfaceAnalysis& analysis, int32_t count,
+RowMatrixf cast_votes(const LandmarkModel& model, const SurfaceAnalysis& analysis, const RowMatrixf& features,
                       const Execution& execution, StageSeconds& seconds) {
+  const auto count = static_cast<int32_t>(features.rows());
   const auto L = static_cast<int32_t>(model.landmark_names.size());
   RowMatrixf votes = RowMatrixf::Zero(analysis.metric->vertex_count(), VoteTables::padded(L));
   Stopwatch watch;
   if (analysis.on_backend) {
     votes = analysis.on_backend->votes(model, std::span(analysis.samples).first(count),
-                                       analysis.descriptors.topRows(count));
+                                       features);
     seconds.vote += watch.lap();  // forest, distances and votes in one
     return votes.leftCols(L);
   }
-  const LeafVotes leaf_votes(model, analysis.descriptors.topRows(count), execution);
+  const LeafVotes leaf_votes(model, features, execution);
   seconds.forest += watch.lap();
   for_each_portion(
       analysis, count, execution, [&](int32_t first, int32_t used, const SampleDistances& portion) {
@@ -131,45 +140,94 @@ void record_borders(const SurfaceAnalysis& analysis, Placement& placement) {
   }
 }
 
-}  // namespace
+// One way in which the body may be oriented, and what it leads to.
+struct Supposition {
+  std::vector<std::vector<int32_t>> peaks;
+  std::vector<int32_t> vertices;
+  ConstellationCandidates candidates;
+  ConstellationStatistics statistics;
+  std::vector<ConstellationChoice> choices;
+  Placement start;
+  double penalty = 0;
+};
 
-Placement place_landmarks(const LandmarkModel& model, const SurfaceAnalysis& analysis, int32_t sample_limit,
-                          const DetectParams& params, const Execution& execution, StageSeconds& seconds) {
-  Placement result;
-  const int32_t samples = std::min(sample_limit, static_cast<int32_t>(analysis.samples.size()));
-  result.votes = cast_votes(model, analysis, samples, execution, seconds);
+Supposition suppose(const LandmarkModel& model, const SurfaceAnalysis& analysis, const Heading& heading, int32_t samples,
+                    const DetectParams& params, const Execution& execution, StageSeconds& seconds) {
+  Supposition result;
+  Placement& start = result.start;
+  const RowMatrixf features = features_of(analysis, samples, model.params, heading.frame);
+  start.frame = heading.frame, result.penalty = heading.penalty;
+  start.exemplars = most_alike(model, features, used_exemplars);
+  result.statistics = statistics_of(model, start.exemplars);
+  start.votes = cast_votes(model, analysis, features, execution, seconds);
   Stopwatch watch;
-  const auto L = static_cast<int32_t>(result.votes.cols());
+  const auto L = static_cast<int32_t>(start.votes.cols());
   const auto surroundings = [&](int32_t v) {
     return connected_ball(analysis.operators.L, analysis.surface().positions, v, peak_separation);
   };
-  auto peaks = analysis.on_backend
-                   ? analysis.on_backend->peaks(L, params.peaks_per_landmark, peak_separation)
-                   : find_peaks(result.votes, L, params.peaks_per_landmark, 0, surroundings, execution);
+  const int32_t wanted = model.params.oriented ? std::min(params.peaks_per_landmark, oriented_peaks) : params.peaks_per_landmark;
+  auto& peaks = result.peaks;
+  peaks = analysis.on_backend ? analysis.on_backend->peaks(L, wanted, peak_separation)
+                              : find_peaks(start.votes, L, wanted, 0, surroundings, execution);
   seconds.vote += watch.lap();
-  result.fixed = fixed_places(params, analysis);
-  std::vector<char> certain(result.fixed.size());
-  for (size_t l = 0; l < result.fixed.size(); ++l)
-    if ((certain[l] = result.is_fixed(l))) peaks[l] = {nearest_corner(analysis.surface(), *result.fixed[l])};
-  std::vector<int32_t> vertices;
-  ConstellationCandidates candidates = make_candidates(peaks, result.votes, analysis, vertices, execution);
-  candidates.certain = std::move(certain);
+  start.fixed = fixed_places(params, analysis);
+  std::vector<char> certain(start.fixed.size());
+  for (size_t l = 0; l < start.fixed.size(); ++l)
+    if ((certain[l] = start.is_fixed(l))) peaks[l] = {nearest_corner(analysis.surface(), *start.fixed[l])};
+  result.candidates = make_candidates(peaks, start.votes, analysis, result.vertices, execution);
+  result.candidates.certain = std::move(certain);
   ConstellationParams how;
+  if (model.params.oriented) how.restarts = oriented_restarts;
   if (!analysis.proxy.full->is_oriented) how.handedness_weight = 0;
-  const auto choices = choose_constellations(model.constellation, candidates, how, execution);
+  result.choices = choose_constellations(result.statistics, result.candidates, how, execution);
+  // What the votes are worth beside those of another supposition: a wrong one scatters them.
+  for (int32_t l = 0; l < L; ++l)
+    result.penalty -= level_weight / L * std::log(std::max(start.votes.col(l).maxCoeff() / static_cast<float>(samples), 1e-9f));
   seconds.constellation += watch.lap();
-  std::vector<Placement> placements(choices.size(), result);
-  size_t best = 0;
-  double least = std::numeric_limits<double>::infinity();
-  for (size_t c = 0; c < choices.size(); ++c) {
-    record_evidence(peaks, candidates, choices[c], samples, vertices, placements[c]);
-    refine_placement(model.constellation, analysis, placements[c], execution);
-    if (choices.size() == 1) break;
-    const double cost =
-        choices[c].energy + residual_weight * quick_map_residual(model, analysis, placements[c], execution);
-    if (cost < least) least = cost, best = c;
+  return result;
+}
+
+}  // namespace
+
+Placement place_landmarks(const LandmarkModel& model, const SurfaceAnalysis& analysis, int32_t sample_limit,
+                          const DetectParams& params, const Execution& execution, StageSeconds& seconds,
+                          const std::optional<Matrix3>& frame) {
+  const int32_t samples = std::min(sample_limit, static_cast<int32_t>(analysis.samples.size()));
+  const std::vector<Heading> headings =
+      frame ? std::vector<Heading>{{*frame, 0}} : headings_to_try(model, analysis, params.orientation, execution);
+  std::vector<Supposition> suppositions;
+  double least_energy = std::numeric_limits<double>::infinity();
+  for (const Heading& heading : headings) {
+    suppositions.push_back(suppose(model, analysis, heading, samples, params, execution, seconds));
+    least_energy = std::min(least_energy, suppositions.back().choices[0].energy + suppositions.back().penalty);
   }
-  result = std::move(placements[best]);
+  Stopwatch watch;
+  struct Hypothesis {
+    size_t supposition, choice;
+    double cost;
+    Placement placement;
+  };
+  std::vector<Hypothesis> hypotheses;
+  for (size_t s = 0; s < suppositions.size(); ++s)
+    for (size_t c = 0; c < suppositions[s].choices.size(); ++c)
+      if (const double cost = suppositions[s].choices[c].energy + suppositions[s].penalty; cost <= least_energy + energy_margin)
+        hypotheses.push_back({s, c, cost, {}});
+  for (Hypothesis& one : hypotheses) {
+    const Supposition& from = suppositions[one.supposition];
+    one.placement = from.start;
+    record_evidence(from.peaks, from.candidates, from.choices[one.choice], samples, from.vertices, one.placement);
+    refine_placement(from.statistics, analysis, one.placement, execution);
+    if (hypotheses.size() == 1) break;
+    const MapFit fit = quick_map_fit(model, analysis, one.placement, execution);
+    one.cost += residual_weight * fit.residual - bulge_weight * fit.bulge_agreement;
+    if (getenv("FOCAL_TRACE")) {
+      fprintf(stderr, "  hyp frame %.0f %.0f %.0f energy %.1f pen %.1f res %.4f bulge %.3f cost %.1f\n", one.placement.frame(0,0), one.placement.frame(1,1), one.placement.frame(2,2),
+              from.choices[one.choice].energy, from.penalty, fit.residual, fit.bulge_agreement, one.cost);
+    }
+  }
+  std::stable_sort(hypotheses.begin(), hypotheses.end(), [](const auto& a, const auto& b) { return a.cost < b.cost; });
+  Placement result = std::move(hypotheses[0].placement);
+  result.runner_up = hypotheses.size() > 1 ? hypotheses[1].cost - hypotheses[0].cost : std::numeric_limits<double>::infinity();
   join_carried_marks(model, analysis, params.quality, result, execution);
   record_borders(analysis, result);
   seconds.refine += watch.lap();

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "landmarks/atlas.h"
 #include "landmarks/detect.h"
 #include "landmarks/model_parts.h"
 #include "landmarks/surface_analysis.h"
@@ -30,12 +31,18 @@ struct Placement {
       fixed;  // its known place, which nothing moves; empty: none is known
   bool is_fixed(size_t landmark) const { return !fixed.empty() && fixed[landmark].has_value(); }
   std::vector<Evidence> evidence;
-  float map_residual = 0;  // mean of the maps from the training shapes; 0 without maps
+  std::vector<int32_t> exemplars;  // training shapes that were asked, see landmarks/exemplars.h
+  std::vector<ShapeMap> maps;      // from them, with quality `best`
+  float map_residual = 0;  // mean of these maps; 0 without
+  float bulge_agreement = 0;  // mean of the maps, see CarriedMarks
+  Matrix3 frame = Matrix3::Identity();  // the orientation that it supposes, see features_of
+  double runner_up = 0;  // how much more another configuration costs; infinite: none comes near
   RowMatrixf votes;        // vertices of the analysed surface x landmarks
 };
 
-// sample_limit: at most so many of the analysis' samples vote.
+// sample_limit: at most so many of the analysis' samples vote. frame: the orientation of the body, where it is known.
 Placement place_landmarks(const LandmarkModel& model, const SurfaceAnalysis& analysis, int32_t sample_limit,
-                          const DetectParams& params, const Execution& execution, StageSeconds& seconds);
+                          const DetectParams& params, const Execution& execution, StageSeconds& seconds,
+                          const std::optional<Matrix3>& frame = std::nullopt);
 
 }  // namespace focal

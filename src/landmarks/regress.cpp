@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "landmarks/detect.h"
+#include "landmarks/features.h"
 
 namespace focal {
 namespace {
@@ -28,9 +29,11 @@ Regression regress(const LandmarkModel& model, const SurfaceAnalysis& analysis, 
   if (model.params.preset == Preset::paper) return regress_paper(model, analysis, landmark, place, execution);
   const auto count = static_cast<Eigen::Index>(analysis.samples.size());
   const RowMatrixf distances = analysis.metric->distances(std::span(&place, 1), execution);
+  const RowMatrixf features =
+      features_of(analysis, static_cast<int32_t>(count), model.params, Matrix3::Identity());
   Regression result{Eigen::VectorXf(count), Eigen::VectorXf(count)};
   for (Eigen::Index s = 0; s < count; ++s) {
-    result.regressed[s] = mean_of_leaves(model, &analysis.descriptors(s, 0), landmark);
+    result.regressed[s] = mean_of_leaves(model, &features(s, 0), landmark);
     result.truth[s] = distances(0, analysis.samples[s]);
   }
   return result;

@@ -5,6 +5,7 @@
 
 #include "base/random.h"
 #include "base/stopwatch.h"
+#include "descriptors/bulge.h"
 #include "descriptors/descriptor.h"
 #include "landmarks/backend_surface.h"
 #include "spectrum/eigenbasis.h"
@@ -118,6 +119,7 @@ SurfaceAnalysis analyse_surface(std::shared_ptr<const PreparedMesh> mesh, const 
   const int32_t n = result.surface().vertex_count(), count = sample_count(n, params);
   result.samples = sample_without_replacement(random, n, count);
   result.descriptors = describe(result, basis, execution);
+  describe_relief(result, execution);
   result.descriptor_seconds = watch.lap();
   return result;
 }
@@ -127,6 +129,14 @@ void make_solvers(SurfaceAnalysis& analysis, const Execution& execution) {
   analysis.metric = distance_kinds()[analysis.params.distance].make(
       {analysis.surface(), analysis.proxy.coarse->bridges, analysis.operators, analysis.params.to_the_letter},
       execution);
+}
+
+void describe_relief(SurfaceAnalysis& analysis, const Execution& execution) {
+  analysis.normals = area_normals(analysis.surface());
+  analysis.normals.rowwise().normalize();
+  if (!analysis.normals.allFinite()) analysis.normals = analysis.normals.array().isFinite().select(analysis.normals, 0);
+  if (!analysis.params.to_the_letter)
+    analysis.bulge = bulge(analysis.surface(), analysis.normals, analysis.operators.mass, execution);
 }
 
 void keep_distances(SurfaceAnalysis& analysis, const Execution& execution) {

@@ -47,6 +47,8 @@ struct SurfaceAnalysis {
   std::vector<int32_t> samples;  // vertices, in random order: any beginning is a random sample too
   RowMatrixf descriptors;        // samples x components
   RowMatrixf eigenfunctions;     // vertices x eigenpairs
+  MatrixX3 normals;              // vertices x 3, of length 1
+  RowMatrixf bulge;              // see descriptors/bulge.h
   SampleDistances distances;     // kept where they are small; else empty, and computed anew for each model
   double proxy_seconds = 0, spectrum_seconds = 0, descriptor_seconds = 0, geodesic_seconds = 0;
 
@@ -59,6 +61,9 @@ SurfaceAnalysis analyse_surface(std::shared_ptr<const PreparedMesh> mesh, const 
 
 // Operators and metric of a proxy that is there already.
 void make_solvers(SurfaceAnalysis& analysis, const Execution& execution);
+
+// Normals and bulge of a proxy whose operators are there.
+void describe_relief(SurfaceAnalysis& analysis, const Execution& execution);
 
 // Computes and keeps the distances of all samples, when they take less than about 64 MB.
 void keep_distances(SurfaceAnalysis& analysis, const Execution& execution);

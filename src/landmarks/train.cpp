@@ -9,6 +9,7 @@
 #include "descriptors/descriptor.h"
 #include "landmarks/atlas.h"
 #include "landmarks/confidence.h"
+#include "landmarks/features.h"
 #include "landmarks/model_parts.h"
 #include "landmarks/paper.h"
 #include "landmarks/placement.h"
@@ -21,6 +22,9 @@ namespace {
 constexpr double disc_radius = 0.04;       // of sqrt(area), as in detection
 constexpr int32_t folds = 3;               // of the cross-fitted confidence
 constexpr int32_t spoiled_samples = 1500;  // of each spoiled copy; more help no more
+// Of all shapes and copies, so that models of many shapes stay small; fewer where an orientation makes features say more.
+constexpr double most_samples = 120000, most_oriented_samples = 40000;
+constexpr int32_t most_judged = 24;        // shapes left out in turn to learn confidence from
 
 // What the training keeps of one shape.
 struct LearnedShape {
@@ -35,6 +39,7 @@ struct Lesson {
   MarkedShape shape;
   SurfaceAnalysis analysis;
   LearnedShape learned;
+  Matrix3 frame = Matrix3::Identity();  // in which it stands, see features_of
 };
 // One training shape, whole and spoiled.
 struct Lessons {
@@ -131,17 +136,22 @@ LearnedShape learn_shape(const MarkedShape& shape, const SurfaceAnalysis& analys
 void learn_parts(LandmarkModel& model, const std::vector<const Lessons*>& shapes,
                  const Execution& execution) {
   std::vector<const Lesson*> lessons;
-  for (const auto* shape : shapes) lessons.push_back(&shape->whole);
-  for (const auto* shape : shapes)
-    for (const auto& copy : shape->spoiled) lessons.push_back(&copy);
+  std::vector<int32_t> shape_of;  // per lesson
+  for (const auto* shape : shapes) shape_of.push_back(static_cast<int32_t>(lessons.size())), lessons.push_back(&shape->whole);
+  for (size_t s = 0; s < shapes.size(); ++s)
+    for (const auto& copy : shapes[s]->spoiled) shape_of.push_back(static_cast<int32_t>(s)), lessons.push_back(&copy);
+  model.sample_shape.clear();
+  for (size_t i = 0; i < lessons.size(); ++i)
+    model.sample_shape.insert(model.sample_shape.end(), static_cast<size_t>(lessons[i]->learned.targets.rows()), shape_of[i]);
   Eigen::Index rows = 0;
   for (const auto* lesson : lessons) rows += lesson->learned.targets.rows();
   const auto L = static_cast<Eigen::Index>(model.landmark_names.size());
-  RowMatrixf descriptors(rows, lessons[0]->analysis.descriptors.cols()), targets(rows, L);
+  RowMatrixf descriptors(rows, feature_count(model.params)), targets(rows, L);
   Eigen::Index row = 0;
   for (const auto* lesson : lessons) {
     const auto& some = lesson->learned.targets;
-    descriptors.middleRows(row, some.rows()) = lesson->analysis.descriptors;
+    descriptors.middleRows(row, some.rows()) =
+        features_of(lesson->analysis, static_cast<int32_t>(some.rows()), model.params, lesson->frame);
     targets.middleRows(row, some.rows()) = some;
     row += some.rows();
   }
@@ -167,6 +177,7 @@ void learn_parts(LandmarkModel& model, const std::vector<const Lessons*>& shapes
     const Lesson& whole = shapes[s]->whole;
     model.atlas[s] = remember_shape(whole.analysis, whole.learned.points, whole.learned.fields, model.reach,
                                     whole.shape.rig);
+    model.atlas[s].constellation = whole.learned.constellation;
   });
   const ForestParams forest{.tree_count = model.params.tree_count,
                             .min_leaf_samples = model.params.min_leaf_samples,
@@ -179,13 +190,13 @@ void learn_parts(LandmarkModel& model, const std::vector<const Lessons*>& shapes
 // The placements of one shape by a model that has not seen it, each with its error. id: another one for each mesh.
 void judge_shape(const LandmarkModel& model, const Lesson& lesson, int32_t id, bool is_whole,
                  std::vector<JudgedPlacement>& judged, const Execution& execution) {
-  const auto& [shape, analysis, learned] = lesson;
+  const auto& [shape, analysis, learned, frame] = lesson;
   const DetectParams detect;
   StageSeconds ignored;
   const auto limit =
       static_cast<int32_t>(sampling_rate_of(detect, model.params) * analysis.surface().vertex_count());
   const Placement placement = place_landmarks(model, analysis, std::clamp(limit, 100, detect.max_samples),
-                                              detect, execution, ignored);
+                                              detect, execution, ignored, frame);
   for (size_t l = 0; l < shape.marks.size(); ++l) {
     if (placement.vertex[l] < 0) continue;
     JudgedPlacement one{
@@ -247,7 +258,7 @@ Calibration cross_fit(const LandmarkModel& model, const std::vector<Lessons>& sh
     for (int32_t i = 0; i < count; ++i)
       if (i % used_folds != fold) kept.push_back(&shapes[order[i]]);
     learn_parts(part, kept, execution);
-    for (int32_t i = fold; i < count; i += used_folds) {
+    for (int32_t i = fold; i < std::min(count, most_judged); i += used_folds) {
       const Lessons& left_out = shapes[order[i]];
       int32_t id = (model.params.spoiled_copies + 1) * order[i];
       judge_shape(part, left_out.whole, id, true, judged, execution);
@@ -256,6 +267,15 @@ Calibration cross_fit(const LandmarkModel& model, const std::vector<Lessons>& sh
     }
   }
   return calibrate(judged, static_cast<int32_t>(model.landmark_names.size()));
+}
+
+// How users' files stand beside the training shapes': nearly as they do.
+Matrix3 random_frame(Random random) {
+  constexpr double heading = 0.25, tilt = 0.12;  // standard deviations, radians
+  const double angle = heading * random.normal();
+  const Vector3 axis(tilt * random.normal(), 0, tilt * random.normal());
+  return (Eigen::AngleAxisd(axis.norm(), axis.norm() > 0 ? Vector3(axis.normalized()) : Vector3::UnitX()) *
+          Eigen::AngleAxisd(angle, Vector3::UnitY())).toRotationMatrix();
 }
 
 Lesson make_lesson(MarkedShape shape, const AnalysisParams& how, const Execution& execution) {
@@ -268,6 +288,7 @@ std::vector<Lessons> make_lessons(const TrainingSet& set, const TrainParams& par
                                   const Execution& execution) {
   const bool paper = params.preset == Preset::paper;
   const int32_t copies = paper ? 1 : 1 + params.spoiled_copies;
+  const auto share = static_cast<int32_t>((params.oriented ? most_oriented_samples : most_samples) / (set.shapes.size() * (paper ? 1.0 : 1 + 0.4 * params.spoiled_copies)));
   std::vector<Lessons> shapes(set.shapes.size());
   std::vector<std::optional<Lesson>> spoiled_lessons(set.shapes.size() * copies);
   execution.begin_stage("analysis", 0, 0.3);
@@ -277,14 +298,17 @@ std::vector<Lessons> make_lessons(const TrainingSet& set, const TrainParams& par
     const auto copy = static_cast<int32_t>(i % copies);
     AnalysisParams how = analysis_params_of(params);
     how.sampling_rate = params.sampling_rate, how.max_samples = params.max_samples_per_shape;
+    if (!paper) how.max_samples = std::min(how.max_samples, share);
     how.seed = params.seed, how.stream = static_cast<uint64_t>(s);
     if (copy == 0) {
       shapes[s].whole = make_lesson(set.shapes[s], how, execution.inner());
     } else if (auto bad =
-                   spoiled(set.shapes[s], copy - 1, Random(params.seed, 5000 + i), execution.inner())) {
-      how.max_samples = std::min(how.max_samples, spoiled_samples);
+                   spoiled(set.shapes[s], static_cast<int32_t>((copy - 1 + s) % 3), Random(params.seed, 5000 + i), execution.inner())) {
+      how.max_samples = std::min({how.max_samples, spoiled_samples, 2 * share / 5});
       spoiled_lessons[i] = make_lesson(*std::move(bad), how, execution.inner());
+      spoiled_lessons[i]->frame = random_frame(Random(params.seed, 15000 + i));
     }
+    if (copy == 0 && set.shapes[s].is_copy) shapes[s].whole.frame = random_frame(Random(params.seed, 15000 + i));
     execution.report(static_cast<double>(++done) / static_cast<double>(spoiled_lessons.size()));
   });
   for (size_t i = 0; i < spoiled_lessons.size(); ++i)
@@ -300,11 +324,14 @@ LandmarkModel train(const TrainingSet& set, const TrainParams& params, const Exe
   model.landmark_names = set.landmark_names;
   model.params = params;
   model.skeleton = set.skeleton;
+  // Shapes of rigged characters come in other poses and proportions too: copies of copies add little.
+  if (!set.skeleton.empty()) model.params.spoiled_copies = std::min(params.spoiled_copies, 1);
+  model.params.oriented = params.oriented && !set.skeleton.empty();
   model.shape_count = static_cast<int32_t>(set.shapes.size());
   int64_t vertices = 0;
   for (const auto& shape : set.shapes) vertices += shape.mesh->surface.vertex_count();
   model.mean_vertex_count = static_cast<int32_t>(vertices / model.shape_count);
-  std::vector<Lessons> shapes = make_lessons(set, params, execution);
+  std::vector<Lessons> shapes = make_lessons(set, model.params, execution);
   model.calibration.typical_vote.assign(set.landmark_names.size(), 0);
   if (params.preset == Preset::paper) {
     std::vector<SurfaceAnalysis> analyses;

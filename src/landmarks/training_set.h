@@ -23,6 +23,7 @@ struct MarkedShape {
   std::vector<std::optional<SurfacePoint>>
       marks;  // on mesh->surface; one a landmark name; empty: absent here
   std::optional<ShapeRig> rig = std::nullopt;
+  bool is_copy = false;  // of another shape of the set, in another pose or of other proportions
 };
 
 // Of the skeleton that all rigged shapes of a set share.

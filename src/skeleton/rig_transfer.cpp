@@ -43,10 +43,13 @@ std::vector<ShapeMap> maps_of(const Detection& detection, const Execution& execu
     throw Error(Status::invalid_argument, "fewer than three landmarks were found on the mesh",
                 "is it of the category that the model was learned on?");
   const SurfaceAnalysis& analysis = *detection.analysis;
-  const CarryParams params{.map = {.first = 20, .last = 120, .step = 8}, .exact_points = true};
-  auto maps =
-      map_shapes(model.atlas, model.reach, analysis, landmark,
-                 analysis.metric->distances(places_of(detection, landmark), execution), params, execution);
+  std::vector<ShapeMap> maps = detection.maps;
+  if (maps.empty()) {
+    const RowMatrixf fields = analysis.metric->distances(places_of(detection, landmark), execution);
+    maps = map_shapes(model.atlas, detection.exemplars, model.reach, analysis, landmark, fields,
+                      {.map = {.first = 20, .last = 120, .step = 8}}, execution);
+  }
+  find_exact_images(maps, model.atlas, analysis, execution);
   std::erase_if(maps, [&](const ShapeMap& one) { return !model.atlas[one.shape].rig; });
   return maps;
 }

@@ -159,7 +159,7 @@ MarkedShape posed(const MarkedShape& shape, const std::vector<SkeletonJoint>& sk
   TriangleMesh moved{skinned(shape.mesh->surface.positions, rig.influences, motion),
                      shape.mesh->surface.triangles};
   const auto mesh = std::make_shared<const PreparedMesh>(prepare(std::move(moved)));
-  MarkedShape result{mesh, {}, ShapeRig{}};
+  MarkedShape result{mesh, {}, ShapeRig{}, true};
   for (const auto& mark : shape.marks) {
     std::optional<SurfacePoint> carried;
     if (mark) carried = to_surface(*mesh, *mark);

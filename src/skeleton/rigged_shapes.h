@@ -17,7 +17,7 @@ struct RiggedMesh {
 
 struct RiggedShapesParams {
   int32_t shapes = 16;     // in all, copies included; every character comes as it is too
-  int32_t landmarks = 64;  // at most
+  int32_t landmarks = 48;  // at most
   uint64_t seed = 0;
 };
 
