@@ -95,11 +95,12 @@ int main(int argc, char** argv) {
   try {
     const Options options = parse(argc, argv);
     bool any = false;
-    for (const Family& family : families())
-      if (options.family == "all" || options.family == family.name) {
-        write_family(family, options);
-        any = true;
-      }
+    for (const auto* list : {&families(), &game_families()})
+      for (const Family& family : *list)
+        if ((options.family == "all" && list == &families()) || options.family == family.name) {
+          write_family(family, options);
+          any = true;
+        }
     if (!any) throw std::invalid_argument("no family is called " + options.family);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "focal_creatures: %s\n%s", error.what(), usage);
