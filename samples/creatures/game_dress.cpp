@@ -195,12 +195,22 @@ void add_scarf(Workshop& shop) {
 void dress(Workshop& shop) {
   const Places& p = shop.plan.at;
   const double hip = p.hip.y(), knee = p.knee.y();
-  Cut cut{shop.random.uniform(0.006, 0.018), shop.random.uniform(0.2, 0.98), shop.random.uniform(0.88, 1.0),
-          shop.chance(0.5)};
+  const double coarse = shop.plan.style.vertices < 1000 ? 0.008 : 0;  // wide chords would cut into the flesh
+  Cut cut{coarse + shop.random.uniform(0.006, 0.018), shop.random.uniform(0.2, 0.98),
+          shop.random.uniform(0.88, 1.0), shop.chance(0.5)};
   if (shop.chance(0.2)) cut.leg = shop.random.uniform(0.2, 0.6);
   if (shop.chance(0.15)) cut.sleeve = 0;
   const bool top = shop.chance(0.72);
   const double below = shop.random.uniform(0, 1);
+  const Bones& b = shop.plan.bones;
+  const auto cover = [&](bool covered, std::initializer_list<int> bones) {
+    if (covered) shop.covered.insert(shop.covered.end(), bones);
+  };
+  cover(top, {b.spine, b.chest, b.upper_chest});
+  cover(top && cut.sleeve > 0.2, {b.shoulder});
+  cover(top && cut.sleeve > 0.6, {b.upper_arm});
+  cover(below < 0.55, {b.hips});
+  cover(below < 0.55 && cut.leg > 0.6, {b.upper_leg});
   if (top) add_shirt(shop, cut);
   if (below < 0.55) add_trousers(shop, cut);
   if (below > 0.52 && below < 0.72)

@@ -120,7 +120,10 @@ void add_hands(Flesh& flesh, const Plan& plan) {
                         {1, thick, 0.95 * wide, 0.95 * wide}},
                        {plan.bones.hand, plan.bones.hand, plan.bones.hand}, 0.01, 0.03 * l);
   palm.front = p.thumb;
-  palm.bones = {{plan.bones.lower_arm}, {plan.bones.hand, 0.0, 0.05 * l}};
+  // Into the arm, which may be a surface of its own and, where triangles are large, ends early.
+  const double into = y.vertices < 1000 ? 0.045 * l : 0.012 * l;
+  palm.from -= into * p.forearm;
+  palm.bones = {{plan.bones.lower_arm}, {plan.bones.hand, into / (into + 0.085 * size), 0.04 * l}};
   palm.start_cap = 0.5 * wrist;
   palm.end_cap = 0.6 * thick;
   palm.detail = 0.6;

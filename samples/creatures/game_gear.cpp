@@ -182,7 +182,7 @@ void equip(Workshop& shop) {
   if (shop.chance(0.14)) add_pack(shop);
   if (shop.chance(0.15)) add_cape(shop);
   if (shop.chance(shop.plan.style.kind == Kind::mascot ? 0.4 : 0.05)) add_tail(shop);
-  if (shop.chance(0.03)) add_wings(shop);
+  if (shop.chance(0.02)) add_wings(shop);
   if (shop.chance(0.12)) add_held(shop);
 }
 

@@ -182,7 +182,7 @@ void add_hair(Workshop& shop) {
 void add_beard(Workshop& shop) {
   const Vec3 r = shop.plan.at.skull_radii;
   const Vec3 at = face_point(shop, 0, -1.0, 0.25);
-  const double long_ = shop.random.uniform(0.3, 1.3);
+  const double long_ = shop.random.uniform(0.2, 0.9);
   Sweep s = cone(at, at - Vec3(0, long_ * r.y(), -0.1 * r.z()), 0.5 * r.x(), 0.2 * r.x(), 0, 0);
   s.front = Vec3::UnitZ();
   s.sections = {{0, 0.62 * r.x(), 0.3 * r.z(), 0.4 * r.z()}, {1, 0.25 * r.x(), 0.14 * r.z(), 0.14 * r.z()}};
@@ -287,7 +287,7 @@ void add_helmet(Workshop& shop) {
 
 void make_head_gear(Workshop& shop) {
   const bool animal = shop.plan.style.kind == Kind::mascot;
-  if (shop.chance(0.65)) add_eyes(shop);
+  if (shop.chance(0.75)) add_eyes(shop);
   if (shop.chance(0.22)) add_teeth(shop);
   const double worn = shop.random.uniform(0, 1);
   if (worn < 0.22) add_hat(shop);

@@ -69,6 +69,7 @@ struct Workshop {
   const Body& body;  // all of the flesh
   Random& random;
   std::vector<Part> parts;
+  std::vector<int> covered;  // bones that are under clothes all along
 
   bool chance(double share) { return random.uniform(0, 1) < share; }
   Tube usual() const;  // as many sides as the style wants
@@ -80,6 +81,8 @@ struct Workshop {
 };
 
 void make_flesh(Workshop& shop);
+// Flesh under clothes is taken away or lies a little deeper; `flesh_parts`: the first so many parts.
+void hide_flesh(Workshop& shop, size_t flesh_parts);
 void make_robot(Workshop& shop);
 void dress(Workshop& shop);           // clothes
 void make_head_gear(Workshop& shop);  // eyes, teeth, hair, ears, hats

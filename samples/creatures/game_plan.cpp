@@ -38,9 +38,12 @@ void shape_body(Style& s, Random& random) {
   const double stout = std::pow(random.uniform(-1, 1), 3);  // seldom thin or fat
   const bool monster = s.kind == Kind::mascot;
   s.leg_share = 0.6 - 0.17 * cute + random.typical(-0.05, 0.05) - (monster ? random.uniform(0, 0.12) : 0);
-  s.width = random.uniform(0.9, 1.08) * (1 + 0.3 * stout) * (monster ? random.uniform(1, 1.35) : 1);
+  const bool built = s.kind == Kind::robot || s.kind == Kind::blocky;
+  const double wide = monster || built ? random.uniform(1, 1.35) : 1 + 0.35 * cute * random.uniform(0, 1);
+  s.width = random.uniform(0.9, 1.08) * (1 + 0.3 * stout) * wide;
   s.depth = random.uniform(0.92, 1.1) * (1 + 0.2 * stout);
-  s.limbs = random.uniform(0.8, 1.1) * (1 + 0.25 * stout) * (1 + 0.2 * cute * random.uniform(-0.5, 1));
+  s.limbs = random.uniform(0.8, 1.1) * (1 + 0.25 * stout) *
+            (built ? random.uniform(0.9, 1.6) : 1 + 0.55 * cute * random.uniform(-0.3, 1));
   s.shoulders = random.uniform(0.84, 1.16) - 0.08 * cute;
   s.hips = random.uniform(0.9, 1.12);
   s.muscle = random.uniform(0, 1.3);
@@ -56,8 +59,8 @@ void shape_body(Style& s, Random& random) {
 
 void shape_head(Style& s, Random& random) {
   const double cute = std::clamp((s.head_share - 0.15) / 0.2, 0.0, 1.0);
-  s.head_width = random.uniform(0.9, 1.08) + cute * random.uniform(0, 0.28);
-  s.head_depth = random.uniform(0.92, 1.06) + cute * random.uniform(-0.1, 0.12);
+  s.head_width = random.uniform(0.9, 1.08) + cute * random.uniform(0, 0.45);
+  s.head_depth = random.uniform(0.92, 1.06) + cute * random.uniform(-0.1, 0.2);
   s.nose = random.uniform(0.5, 1.2) * (1 - 0.6 * cute);
   s.eyes = random.uniform(0.85, 1.2) + 0.7 * cute;
   s.snout = s.kind == Kind::mascot && random.uniform(0, 1) < 0.6 ? random.uniform(0.5, 1.4) : 0;

@@ -36,7 +36,7 @@ Mesh block(const Look& l, const Vec3& from, const Vec3& to, double side, double 
   const Vec3 along = (to - from).normalized();
   s.from += gap * along;
   s.to -= gap * along;
-  s.front = Vec3::UnitZ();
+  s.front = std::abs(along.z()) < 0.9 ? Vec3::UnitZ() : Vec3::UnitY();
   s.sections = {{0, side, deep, deep}, {1, end * side, end * deep, end * deep}};
   s.start_cap = s.end_cap = l.boxes ? 0.15 * std::min(side, deep) : 0.7 * std::min(side, deep);
   return tube(s, l.how);
@@ -57,7 +57,7 @@ void add_trunk(Workshop& shop, const Look& l) {
   const double w = p.width, d = 0.1 * w * shop.plan.style.depth * l.thick,
                waist = shop.random.uniform(0.55, 1);
   const double hip = std::max(0.14 * w, p.hip.x() + 0.04 * w),
-               chest = std::max(0.1 * w, p.shoulder.x() - 0.05 * w);
+               chest = std::max(0.1 * w, p.shoulder.x() - (l.boxes ? 0.02 : 0.05) * w);
   const Vec3 low(0, p.hip.y() - 0.04 * w, 0), neck(0, p.neck.y(), -0.01);
   const auto add = [&](const std::string& name, const Vec3& from, const Vec3& to, double side, double deep,
                        double end,

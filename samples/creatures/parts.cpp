@@ -157,6 +157,23 @@ void append(Mesh& mesh, const Mesh& more) {
     mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
 }
 
+void drop_loose_vertices(Part& part) {
+  Part kept{part.name, {}, {}};
+  std::vector<int> moved(part.mesh.positions.size(), -1);
+  for (Triangle t : part.mesh.triangles) {
+    for (int& v : t) {
+      if (moved[v] < 0) {
+        moved[v] = static_cast<int>(kept.mesh.positions.size());
+        kept.mesh.positions.push_back(part.mesh.positions[v]);
+        kept.skin.push_back(part.skin[v]);
+      }
+      v = moved[v];
+    }
+    kept.mesh.triangles.push_back(t);
+  }
+  part = std::move(kept);
+}
+
 Sweep inflated(Sweep sweep, double by) {
   for (Section& s : sweep.sections) {
     s.side += by;

@@ -31,6 +31,7 @@ Mesh sheet(int columns, int rows, const std::function<Vec3(double, double)>& poi
 Mesh clip(const Mesh& mesh, const std::function<double(const Vec3&)>& f);
 Mesh mirrored(const Mesh& mesh);
 void append(Mesh& mesh, const Mesh& more);
+void drop_loose_vertices(Part& part);
 // Every section, cap and thus the whole surface moves outwards.
 Sweep inflated(Sweep sweep, double by);
 
