@@ -33,21 +33,24 @@ void add_torso(Flesh& flesh, const Plan& plan) {
   const double w = p.width, d = w * y.depth, h = w * y.hips, s = w * y.shoulders, g = y.belly;
   const Vec3 bottom(0, p.hip.y() - 0.03, 0), top(0, p.neck.y() - 0.015, 0);
   const double hip = std::max(0.163 * h, p.hip.x() + 0.055 * w * y.limbs);
-  flesh.torso.push_back(
-      {.from = bottom,
-       .to = top,
-       .front = Vec3::UnitZ(),
-       .sections = {{0.00, 0.75 * hip, 0.085 * d, 0.085 * d, -0.005},
-                    {0.12, hip, (0.098 + 0.02 * g) * d, 0.1 * d, -0.005},
-                    {0.30, 0.135 * w + 0.03 * g * w, (0.096 + 0.06 * g) * d, 0.078 * d},
-                    {0.48, 0.142 * w + 0.018 * g * w, (0.102 + 0.035 * g) * d, 0.084 * d},
-                    {0.68, 0.163 * s, 0.108 * d, 0.1 * d, -0.005},
-                    {0.86, 0.148 * s, 0.086 * d, 0.094 * d, -0.015},
-                    {1.00, 0.078 * s, 0.058 * d, 0.06 * d, -0.022}},
-       .start_cap = 0.05,
-       .end_cap = 0.03,
-       .bones = {{b.hips}, {b.spine, 0.24, 0.12}, {b.chest, 0.46, 0.12}, {b.upper_chest, 0.70, 0.12}},
-       .blend = 0.05});
+  flesh.torso.push_back({.from = bottom,
+                         .to = top,
+                         .front = Vec3::UnitZ(),
+                         .sections = {{0.00, 0.75 * hip, 0.085 * d, 0.085 * d, -0.005},
+                                      {0.12, hip, (0.098 + 0.02 * g) * d, 0.1 * d, -0.005},
+                                      {0.30, 0.135 * w + 0.03 * g * w, (0.096 + 0.06 * g) * d, 0.078 * d},
+                                      {0.48, 0.142 * w + 0.018 * g * w, (0.102 + 0.035 * g) * d, 0.084 * d},
+                                      {0.68, 0.163 * s, 0.108 * d, 0.1 * d, -0.005},
+                                      {0.86, 0.148 * s, 0.086 * d, 0.094 * d, -0.015},
+                                      {1.00, 0.078 * s, 0.058 * d, 0.06 * d, -0.022}},
+                         .start_cap = 0.05,
+                         .end_cap = 0.03,
+                         .bones = {{b.hips},
+                                   {b.spine, 0.24, 0.12},
+                                   {b.chest, 0.46, 0.12},
+                                   {b.upper_chest, 0.70, 0.12},
+                                   {b.neck, 0.985, 0.05}},
+                         .blend = 0.05});
   const Vec3 collar = p.neck + Vec3(0.03 * w, -0.01, 0), outer = p.shoulder + Vec3(-0.01, 0.01, 0);
   const double t = 0.042 * w * (0.9 + 0.15 * y.muscle);
   flesh.torso.push_back({.from = collar,
@@ -261,8 +264,8 @@ void add_head(Flesh& flesh, const Plan& plan) {
                         .start_cap = 0.02,
                         .end_cap = 0.02,
                         .bones = {{plan.bones.upper_chest},
-                                  {plan.bones.neck, low / length, 0.03},
-                                  {plan.bones.head, 1 - 0.04 / length, 0.03}},
+                                  {plan.bones.neck, (low - 0.01) / length, 0.025},
+                                  {plan.bones.head, 1 - 0.035 / length, 0.025}},
                         .blend = 0.04,
                         .detail = 0.8});
 }

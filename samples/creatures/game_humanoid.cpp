@@ -22,7 +22,9 @@ void add_surface(Workshop& shop, const std::string& name, const std::vector<Swee
   const Body body(sweeps, shop.plan.bones.all.mirror, random_asymmetry(shop.random, 0.001));
   shop.add(
       name, surface(shop, body, cell, vertices), [&](const Vec3& p) { return shop.body.bone_weights(p); },
-      vertices > 800 ? 4 : 1);
+      vertices > 2000  ? 4
+      : vertices > 700 ? 1
+                       : 0);
 }
 
 // One side's sweeps; the mesh is made once and mirrored.

@@ -120,7 +120,7 @@ Places place(const Style& s) {
   Places p;
   const double head = s.head_share * height, chin = height - head, body = chin / 1.46;
   const double hip_height = s.leg_share * chin, tall = std::pow(body, 0.35);
-  const double neck = std::max(0.085 * body * s.neck, 0.02);
+  const double neck = std::max(0.085 * body * s.neck, 0.035);
   const double torso = (chin + 0.03 - neck - hip_height) / 0.52;
   p.width = s.width * std::pow(body, 0.25);
   p.reach = s.arms * std::sqrt(body * (0.3 + 0.7 * torso));
