@@ -63,6 +63,8 @@ const std::vector<Family>& game_families() {
   static const std::vector<Family> all{
       {"game_humanoid", "people, mascots and robots as games have them: of parts, from realistic to chibi",
        nullptr, game::make_humanoid},
+      {"game_quadruped", "four-legged animals as games have them: of parts, from lizards to elephants",
+       nullptr, game::make_quadruped},
   };
   return all;
 }

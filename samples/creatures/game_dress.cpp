@@ -3,8 +3,6 @@
 #include <cmath>
 
 #include "game_humanoid.h"
-#include "polygonise.h"
-#include "remesh.h"
 
 namespace creatures::game {
 namespace {
@@ -46,10 +44,8 @@ void add_fabric(Workshop& shop, const std::string& name, std::vector<Sweep> swee
                 const std::function<double(const Vec3&)>& outside, double share) {
   for (Sweep& s : sweeps) s = inflated(s, ease);
   const Body body(sweeps, shop.plan.bones.all.mirror, {});
-  const Vec3 shift(shop.random.uniform(0, 1), shop.random.uniform(0, 1), shop.random.uniform(0, 1));
-  const Eigen::Quaterniond turn(Eigen::AngleAxisd(shop.random.uniform(0, 3), Vec3(0.3, 0.4, 1).normalized()));
   const int vertices = std::max(90, static_cast<int>(share * shop.plan.style.vertices));
-  const Mesh closed = remesh(polygonise(body, 0.026, turn, shift), body, vertices, shop.random);
+  const Mesh closed = surface_of(body, 0.026, vertices, shop.random);
   shop.add(
       name, clip(closed, outside), [&](const Vec3& p) { return shop.body.bone_weights(p); }, 2);
 }

@@ -7,25 +7,6 @@
 namespace creatures::game {
 namespace {
 
-// A stretch of a limb that passes smoothly from the bone before it to its own and to the one after it.
-Sweep segment(const Vec3& from, const Vec3& to, std::vector<Section> sections, std::array<int, 3> bones,
-              double softness, double blend) {
-  return {.from = from,
-          .to = to,
-          .front = Vec3::UnitZ(),
-          .sections = std::move(sections),
-          .start_cap = 0,
-          .end_cap = 0,
-          .bones = {{bones[0]}, {bones[1], 0.0, softness}, {bones[2], 1.0, softness}},
-          .blend = blend,
-          .paired = true};
-}
-
-void cap_round(Sweep& s, double start, double end) {
-  s.start_cap = start * s.sections.front().side;
-  s.end_cap = end * s.sections.back().side;
-}
-
 void add_torso(Flesh& flesh, const Plan& plan) {
   const Style& y = plan.style;
   const Places& p = plan.at;
@@ -88,6 +69,7 @@ void add_arms(Flesh& flesh, const Plan& plan) {
                          {1, 0.025 * l, 0.03 * l, 0.029 * l}},
                         {b.upper_arm, b.lower_arm, b.hand}, 0.07 * l, 0.05 * l);
   cap_round(lower, 1, 0.8);
+  upper.detail = lower.detail = 0.75;  // thin: too few vertices would break them
   flesh.arms = {upper, lower};
 }
 
@@ -169,6 +151,7 @@ void add_legs(Flesh& flesh, const Plan& plan) {
                         {b.lower_leg, b.upper_leg, b.hips}, 0.1 * l, 0.06 * l);
   cap_round(upper, 1, 0.8);
   upper.pair_blend = lower.pair_blend = 0.01;
+  upper.detail = lower.detail = 0.9;
   flesh.legs = {lower, upper};
 }
 

@@ -4,12 +4,11 @@
 #include <vector>
 
 #include "design.h"
-#include "parts.h"
+#include "shop.h"
 
 namespace creatures::game {
 
 enum class Kind { realistic, stylised, chibi, mascot, robot, blocky };
-enum class Make { skin, pieces, tubes };  // one blended surface, some of them, or a tube a limb
 enum class Hand { mitten, fist, fingers };
 
 // Lengths for a body of 1.7, relative to an average adult where no unit is given.
@@ -48,7 +47,6 @@ struct Plan {
   Style style;
   Places at;
   Bones bones;
-  int bone_count() const { return static_cast<int>(bones.all.joints.size()); }
 };
 
 Plan plan_humanoid(Random& random);
@@ -63,21 +61,10 @@ struct Flesh {
 Flesh flesh_of(const Plan& plan);
 
 // Everything that makers of parts need, and what they have made.
-struct Workshop {
+struct Workshop : Shop {
   const Plan& plan;
   const Flesh& flesh;
-  const Body& body;  // all of the flesh
-  Random& random;
-  std::vector<Part> parts;
-  std::vector<int> covered;  // bones that are under clothes all along
-
-  bool chance(double share) { return random.uniform(0, 1) < share; }
-  Tube usual() const;  // as many sides as the style wants
-  void add(const std::string& name, Mesh mesh, const WeightField& weights, int rounds = 0);
-  // The mesh is of the left side or the middle; `bone` is the left one, and takes the whole part.
-  void add_rigid(const std::string& name, const Mesh& mesh, int bone, bool paired);
-  // With the weights of the sweep's own bones, on both sides if it is paired.
-  void add_tube(const std::string& name, const Sweep& sweep, const Tube& how);
+  std::vector<int> covered = {};  // bones that are under clothes all along
 };
 
 void make_flesh(Workshop& shop);

@@ -44,6 +44,7 @@ void shape_body(Style& s, Random& random) {
   s.depth = random.uniform(0.92, 1.1) * (1 + 0.2 * stout);
   s.limbs = random.uniform(0.8, 1.1) * (1 + 0.25 * stout) *
             (built ? random.uniform(0.9, 1.6) : 1 + 0.55 * cute * random.uniform(-0.3, 1));
+  s.limbs = std::max(s.limbs, 0.78);
   s.shoulders = random.uniform(0.84, 1.16) - 0.08 * cute;
   s.hips = random.uniform(0.9, 1.12);
   s.muscle = random.uniform(0, 1.3);
