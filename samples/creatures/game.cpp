@@ -33,6 +33,24 @@ std::vector<Part> merged(std::vector<Part> parts, double habit) {
   return result;
 }
 
+// Large triangles may miss a short neck or a small ear: then what is nearest to the bone follows it halfway.
+void lead_every_joint(Character& made) {
+  std::vector<double> most(made.skeleton.joints.size(), 0.0);
+  for (const Influences& v : made.skin)
+    for (int k = 0; k < max_influences; ++k)
+      most[static_cast<size_t>(v.joints[k])] = std::max(most[static_cast<size_t>(v.joints[k])], v.weights[k]);
+  for (size_t j = 0; j < most.size(); ++j) {
+    if (most[j] > 0.3) continue;
+    const Vec3 middle = 0.5 * (made.skeleton.joints[j].rest + made.skeleton.joints[j].tip);
+    const auto nearest = std::min_element(
+        made.rest.positions.begin(), made.rest.positions.end(),
+        [&](const Vec3& a, const Vec3& b) { return (a - middle).norm() < (b - middle).norm(); });
+    Influences& v = made.skin[static_cast<size_t>(nearest - made.rest.positions.begin())];
+    v = {{static_cast<int>(j), v.joints[0], 0, 0}, {0.5, 0.5, 0, 0}};
+    if (v.joints[0] == v.joints[1]) v = {{static_cast<int>(j), 0, 0, 0}, {1, 0, 0, 0}};
+  }
+}
+
 }  // namespace
 
 Character finish(const Frame& frame, std::vector<Part> parts, Random& random) {
@@ -43,6 +61,7 @@ Character finish(const Frame& frame, std::vector<Part> parts, Random& random) {
     made.pieces.push_back({part.name, static_cast<int>(part.mesh.positions.size()),
                            static_cast<int>(part.mesh.triangles.size())});
   }
+  lead_every_joint(made);
   add_landmarks(made, frame.body, frame.anchors);
   double floor = 1e9;
   for (const Vec3& p : made.rest.positions) floor = std::min(floor, p.y());

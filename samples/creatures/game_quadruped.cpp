@@ -83,8 +83,8 @@ void add_head(Flesh& flesh, const Plan& plan) {
   socket.carve = socket.paired = true;
   flesh.head.push_back(socket);
   if (y.trunk > 0) {
-    const Vec3 half = tip + y.trunk * h * Vec3(0, -0.13, 0.07),
-               end = half + y.trunk * h * Vec3(0, -0.16, 0.02);
+    const double t = std::min(y.trunk * h, (tip.y() - 0.09) / 0.29);  // ends above the ground
+    const Vec3 half = tip + t * Vec3(0, -0.13, 0.07), end = half + t * Vec3(0, -0.16, 0.02);
     flesh.head.push_back(cone(tip, half, 0.045 * h, 0.034 * h, plan.bones.head, 0.03));
     flesh.head.push_back(cone(half, end, 0.034 * h, 0.024 * h, plan.bones.head, 0.02));
   }
@@ -230,7 +230,9 @@ void add_extras(Shop& shop, const Plan& plan) {
 void make_flesh(Shop& shop, const Plan& plan, const Flesh& f) {
   const int n = plan.style.vertices;
   const double thin = std::clamp(0.55 * plan.style.limbs * 0.032, 0.0125, 0.018);
-  const bool ears = plan.style.make != Make::skin || shop.chance(0.3);  // apart from the head
+  // Apart from the body: by taste, and where large triangles would break what is thin.
+  const bool ears = plan.style.make != Make::skin || n < 700 || shop.chance(0.25);
+  const bool tail = n < 1000 || plan.style.tail_thick < 0.8 || shop.chance(0.15);
   if (plan.style.make == Make::tubes) {
     Tube how = shop.usual();
     for (const Sweep& s : f.all())
@@ -238,15 +240,20 @@ void make_flesh(Shop& shop, const Plan& plan, const Flesh& f) {
     return;
   }
   if (plan.style.make == Make::skin) {
-    shop.add_surface("body", ears ? joined({&f.trunk, &f.legs, &f.tail, &f.head}) : f.all(), thin, n);
+    std::vector<Sweep> most = joined({&f.trunk, &f.legs, &f.head});
+    if (!tail) most.insert(most.end(), f.tail.begin(), f.tail.end());
+    if (!ears) most.push_back(f.ears[0]);
+    shop.add_surface("body", most, thin, n);
   } else {
-    shop.add_surface("body", joined({&f.trunk, &f.tail}), thin, std::max(120, n / 3));
+    shop.add_surface("body", tail ? f.trunk : joined({&f.trunk, &f.tail}), thin, std::max(120, n / 3));
     shop.add_surface("head", f.head, thin, std::max(80, n / 4));
     const std::vector<Sweep> front(f.legs.begin(), f.legs.begin() + 4),
         hind(f.legs.begin() + 4, f.legs.end());
-    shop.add_paired_surface("frontLeg", front, thin, std::max(70, n / 8));
-    shop.add_paired_surface("hindLeg", hind, thin, std::max(70, n / 8));
+    shop.add_paired_surface("frontLeg", front, thin, std::max(110, n / 8));
+    shop.add_paired_surface("hindLeg", hind, thin, std::max(110, n / 8));
   }
+  for (const Sweep& s : f.tail)
+    if (tail) shop.add_tube("tail", s, shop.usual());
   if (ears) shop.add_tube("ear", f.ears[0], shop.usual());
 }
 

@@ -13,7 +13,7 @@ constexpr double degree = EIGEN_PI / 180;
 Style usual(Species species) {
   Style s{};
   s.species = species;
-  s.height = 0.56, s.barrel = 1, s.chest = 1, s.waist = 0.85, s.limbs = 1, s.paws = 1, s.crouch = 1;
+  s.height = 0.56, s.barrel = 1.1, s.chest = 1, s.waist = 0.85, s.limbs = 1, s.paws = 1, s.crouch = 1;
   s.neck = 0.26, s.neck_up = 48, s.head = 1, s.head_wide = 1, s.muzzle = 1, s.muzzle_thick = 1, s.nod = 15;
   s.ears = 1, s.ear_up = 70, s.ear_wide = 1, s.tail = 0.45, s.tail_up = -10, s.tail_thick = 1;
   switch (species) {
@@ -22,18 +22,18 @@ Style usual(Species species) {
       s.ears = 0.8;
       break;
     case Species::horse:
-      s.height = 0.72, s.barrel = 1.2, s.neck = 0.42, s.neck_up = 52, s.head = 1.15, s.muzzle = 1.5,
+      s.height = 0.72, s.barrel = 1.5, s.neck = 0.42, s.neck_up = 52, s.head = 1.15, s.muzzle = 1.5,
       s.nod = 45;
       s.ears = 0.7, s.hooves = true, s.crouch = 0.75, s.tail_up = -65, s.mane = 0.6, s.head_wide = 0.85;
       break;
     case Species::cow:
-      s.height = 0.58, s.barrel = 1.6, s.waist = 1, s.neck = 0.27, s.neck_up = 25, s.head = 1.2,
+      s.height = 0.58, s.barrel = 1.75, s.waist = 1, s.neck = 0.27, s.neck_up = 25, s.head = 1.2,
       s.muzzle = 1.3, s.nod = 35;
       s.ears = 0.8, s.ear_up = 0, s.hooves = true, s.crouch = 0.6, s.tail_up = -75, s.horns = 0.6,
       s.muzzle_thick = 1.3;
       break;
     case Species::deer:
-      s.height = 0.74, s.barrel = 0.95, s.limbs = 0.75, s.neck = 0.38, s.neck_up = 60, s.muzzle = 1.2,
+      s.height = 0.74, s.barrel = 1.15, s.limbs = 0.75, s.neck = 0.38, s.neck_up = 60, s.muzzle = 1.2,
       s.nod = 25;
       s.ears = 1.1, s.ear_up = 45, s.hooves = true, s.tail = 0.13, s.horns = 0.7, s.head = 0.9;
       break;
@@ -45,7 +45,7 @@ Style usual(Species species) {
     case Species::elephant:
       s.height = 0.66, s.barrel = 2.1, s.waist = 1, s.limbs = 2, s.paws = 1.3, s.neck = 0.26, s.neck_up = 25,
       s.head = 1.9;
-      s.muzzle = 0.5, s.ears = 2.2, s.ear_up = -15, s.ear_wide = 2, s.crouch = 0.1, s.trunk = 1,
+      s.muzzle = 0.5, s.ears = 1.35, s.ear_up = -30, s.ear_wide = 2, s.crouch = 0.1, s.trunk = 1,
       s.tail_up = -75, s.tail_thick = 0.6;
       break;
     case Species::bear:
@@ -57,7 +57,7 @@ Style usual(Species species) {
     case Species::lizard:
       s.height = 0.26, s.barrel = 0.85, s.waist = 1.05, s.neck = 0.2, s.neck_up = 12, s.head = 1,
       s.muzzle = 1.4, s.nod = 5;
-      s.ears = 0.25, s.tail = 0.95, s.tail_up = -12, s.tail_thick = 2.6, s.sprawl = 0.09, s.crouch = 0.6,
+      s.ears = 0.25, s.tail = 0.95, s.tail_up = -12, s.tail_thick = 2.6, s.sprawl = 0.15, s.crouch = 0.6,
       s.paws = 1.1;
       break;
     default:
@@ -89,12 +89,13 @@ void vary_trunk(Style& s, Random& random) {
 }
 
 void vary_head(Style& s, Random& random) {
-  const double cute = random.uniform(0, 1) < 0.3 ? random.uniform(0.2, 1) : 0;
+  const double cute =
+      (random.uniform(0, 1) < 0.3 ? random.uniform(0.2, 1) : 0) / std::max(1.0, 1.6 * s.muzzle);
   s.head *= random.typical(0.88, 1.15) * (1 + 0.9 * cute);
   s.height *= 1 - 0.25 * cute;
   s.neck *= 1 - 0.25 * cute;
-  s.head_wide *= random.typical(0.85, 1.2) + 0.2 * cute;
-  s.muzzle *= random.uniform(0.7, 1.35) * (1 - 0.4 * cute);
+  s.head_wide *= random.typical(0.85, 1.2) + 0.35 * cute;
+  s.muzzle *= random.uniform(0.7, 1.35) * (1 - 0.5 * cute);
   s.muzzle_thick *= random.uniform(0.8, 1.25);
   s.nod += random.typical(-18, 25);
   s.ears *= random.uniform(0.7, 1.5);
