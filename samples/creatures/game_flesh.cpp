@@ -69,7 +69,7 @@ void add_arms(Flesh& flesh, const Plan& plan) {
                          {1, 0.025 * l, 0.03 * l, 0.029 * l}},
                         {b.upper_arm, b.lower_arm, b.hand}, 0.07 * l, 0.05 * l);
   cap_round(lower, 1, 0.8);
-  upper.detail = lower.detail = 0.75;  // thin: too few vertices would break them
+  upper.detail = lower.detail = y.vertices < 900 ? 0.52 : 0.75;  // too few vertices would break thin ones
   flesh.arms = {upper, lower};
 }
 
@@ -151,7 +151,7 @@ void add_legs(Flesh& flesh, const Plan& plan) {
                         {b.lower_leg, b.upper_leg, b.hips}, 0.1 * l, 0.06 * l);
   cap_round(upper, 1, 0.8);
   upper.pair_blend = lower.pair_blend = 0.01;
-  upper.detail = lower.detail = 0.9;
+  upper.detail = lower.detail = y.vertices < 900 ? 0.7 : 0.9;
   flesh.legs = {lower, upper};
 }
 

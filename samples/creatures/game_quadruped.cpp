@@ -125,7 +125,7 @@ void add_leg(Flesh& flesh, const Style& y, const std::array<Vec3, 5>& joints, in
                        {bones[3], bones[2], bones[1]}, 0.035, 0.035);
   for (Sweep* s : {&upper, &lower, &foot}) {
     cap_round(*s, 0.9, 0.9);
-    s->detail = 0.72;
+    s->detail = (y.vertices < 900 ? 0.65 : 0.8) * std::clamp(l, 0.65, 1.1);  // thin ones need more vertices
     s->pair_blend = 0.008;
   }
   const double f = y.paws, ground = joints[3].y();
@@ -229,7 +229,7 @@ void add_extras(Shop& shop, const Plan& plan) {
 
 void make_flesh(Shop& shop, const Plan& plan, const Flesh& f) {
   const int n = plan.style.vertices;
-  const double thin = std::clamp(0.55 * plan.style.limbs * 0.032, 0.0125, 0.018);
+  const double thin = std::clamp(0.5 * plan.style.limbs * 0.03, 0.0115, 0.018);
   // Apart from the body: by taste, and where large triangles would break what is thin.
   const bool ears = plan.style.make != Make::skin || n < 700 || shop.chance(0.25);
   const bool tail = n < 1000 || plan.style.tail_thick < 0.8 || shop.chance(0.15);
