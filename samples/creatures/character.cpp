@@ -11,39 +11,11 @@
 namespace creatures {
 namespace {
 
-// Weights of the body, smoothed over the mesh so that no crease of the blend shows when bent.
+// Weights of the body, smoothed so that no crease of the blend shows when bent.
 std::vector<Influences> skin(const Body& body, const Mesh& mesh) {
-  const size_t bones = static_cast<size_t>(body.bone_count()), count = mesh.positions.size();
   std::vector<std::vector<double>> weights;
   for (const Vec3& p : mesh.positions) weights.push_back(body.bone_weights(p));
-  for (int round = 0; round < 6; ++round) {
-    std::vector<std::vector<double>> sums(count, std::vector<double>(bones, 0.0));
-    for (const Triangle& t : mesh.triangles)
-      for (int corner : t)
-        for (int other : t)
-          for (size_t b = 0; b < bones; ++b) sums[corner][b] += weights[other][b];
-    for (auto& w : sums) {
-      double total = 0;
-      for (double x : w) total += x;
-      for (double& x : w) x /= total;
-    }
-    weights = std::move(sums);
-  }
-  std::vector<Influences> result(count);
-  for (size_t v = 0; v < count; ++v) {
-    std::vector<double>& w = weights[v];
-    double total = 0;
-    for (int k = 0; k < max_influences; ++k) {
-      const auto best = std::max_element(w.begin(), w.end());
-      if (*best < 1e-4) break;
-      result[v].joints[k] = static_cast<int>(best - w.begin());
-      result[v].weights[k] = *best;
-      total += *best;
-      *best = 0;
-    }
-    for (double& x : result[v].weights) x /= total;
-  }
-  return result;
+  return skin_of(std::move(weights), mesh.triangles, 6);
 }
 
 // Where the ray leaves the body: steps along it, then bisection.
@@ -105,8 +77,33 @@ Landmark nearest_on_mesh(const std::string& name, const Mesh& mesh, const Vec3& 
 
 }  // namespace
 
+void add_landmarks(Character& made, const Body& body, const std::vector<Anchor>& anchors) {
+  for (const Anchor& a : anchors) {
+    const Vec3 p = leave(body, a.inside, a.direction);
+    made.landmarks.push_back(nearest_on_mesh(a.paired ? a.name + ".L" : a.name, made.rest, p));
+    if (!a.paired) continue;
+    const Vec3 q = leave(body, mirrored(a.inside), mirrored(a.direction));
+    made.landmarks.push_back(nearest_on_mesh(a.name + ".R", made.rest, q));
+  }
+}
+
+void pose_character(Character& made, const std::vector<Freedom>& freedoms, Random& random) {
+  const double heading = random.uniform(-std::numbers::pi, std::numbers::pi);
+  made.pose = random_pose(made.skeleton, freedoms, heading, random);
+  double rest_floor = 1e9, floor = 1e9;
+  for (size_t v = 0; v < made.rest.positions.size(); ++v) {
+    made.posed.push_back(bend(made.rest.positions[v], made.skin[v], made.pose));
+    rest_floor = std::min(rest_floor, made.rest.positions[v].y());
+    floor = std::min(floor, made.posed.back().y());
+  }
+  const Vec3 lift(0, rest_floor - floor, 0);
+  for (Vec3& p : made.posed) p += lift;
+  for (Eigen::Isometry3d& motion : made.pose) motion.pretranslate(lift);
+}
+
 Character make_character(const Family& family, const std::string& name, uint64_t seed) {
   Random random(seed);
+  if (family.make) return family.make(name, random);
   const Design design = family.design(random);
   const Eigen::Quaterniond rotation =
       Eigen::AngleAxisd(random.uniform(0, 3),
@@ -119,31 +116,13 @@ Character make_character(const Family& family, const std::string& name, uint64_t
   Character made{name, design.skeleton, {}, {}, {}, {}, {}};
   made.rest = remesh(polygonise(design.body, cell, rotation, shift), design.body, vertices, random);
   made.skin = skin(design.body, made.rest);
-  for (const Anchor& a : design.anchors) {
-    const Vec3 p = leave(design.body, a.inside, a.direction);
-    made.landmarks.push_back(nearest_on_mesh(a.paired ? a.name + ".L" : a.name, made.rest, p));
-    if (!a.paired) continue;
-    const Vec3 q = leave(design.body, mirrored(a.inside), mirrored(a.direction));
-    made.landmarks.push_back(nearest_on_mesh(a.name + ".R", made.rest, q));
-  }
+  add_landmarks(made, design.body, design.anchors);
   for (Vec3& p : made.rest.positions) p *= design.scale;
   for (Joint& joint : made.skeleton.joints) {
     joint.rest *= design.scale;
     joint.tip *= design.scale;
   }
-
-  const double heading = random.uniform(-std::numbers::pi, std::numbers::pi);
-  made.pose = random_pose(made.skeleton, design.freedoms, heading, random);
-  double rest_floor = 1e9, floor = 1e9;
-  for (size_t v = 0; v < made.rest.positions.size(); ++v) {
-    made.posed.push_back(bend(made.rest.positions[v], made.skin[v], made.pose));
-    rest_floor = std::min(rest_floor, made.rest.positions[v].y());
-    floor = std::min(floor, made.posed.back().y());
-  }
-  // Stands on the same ground in the pose as at rest.
-  const Vec3 lift(0, rest_floor - floor, 0);
-  for (Vec3& p : made.posed) p += lift;
-  for (Eigen::Isometry3d& motion : made.pose) motion.pretranslate(lift);
+  pose_character(made, design.freedoms, random);
   return made;
 }
 

@@ -34,10 +34,14 @@ Design design_insect(Random& random);
 // Waves of at most about `size`, for Body.
 std::array<double, 6> random_asymmetry(Random& random, double size);
 
+struct Character;
 struct Family {
   std::string_view name, description;
-  Design (*design)(Random& random);
+  Design (*design)(Random& random);                                      // of one closed surface
+  Character (*make)(const std::string& name, Random& random) = nullptr;  // of parts, instead of `design`
 };
 const std::vector<Family>& families();
+// Characters as games have them: of parts that may be open, overlap or hide each other.
+const std::vector<Family>& game_families();
 
 }  // namespace creatures

@@ -15,10 +15,28 @@ namespace {
 using namespace creatures;
 
 constexpr const char* usage =
-    "usage: focal_creatures OUT [--family humanoid|quadruped|hand|insect|all] [--train N] [--test N] [--seed "
-    "S]\n"
+    "usage: focal_creatures OUT [--family NAME] [--train N] [--test N] [--seed S]\n"
     "Writes OUT/FAMILY/: N training and N test characters (default 10 and 5), their landmarks, joints and "
-    "rigs.\n";
+    "rigs.\n"
+    "The same seed makes the same characters.\n"
+    "Families of closed smooth bodies; all (the default) makes these four:\n"
+    "  humanoid, quadruped, hand, insect\n"
+    "Families as games have them, for `focal train --rigs OUT/FAMILY/*.rig.glb`. Their seed also chooses the "
+    "style:\n"
+    "  game_humanoid   realistic, stylised, chibi, mascot with snout and ears, box or capsule robot, block "
+    "figure;\n"
+    "                  heads of 1/9 to 1/2 of the height; T, A or hanging arms; mittens, fists or fingers; "
+    "one skin,\n"
+    "                  several surfaces or tubes, 350 to 16000 triangles; clothes that hide the skin below "
+    "or replace\n"
+    "                  it, boots, skirts, coats, capes, hats, helmets, hair, armour, packs, tails, wings, "
+    "weapons,\n"
+    "                  eyes and teeth; up to 40 meshes on one skeleton of 22 joints\n"
+    "  game_quadruped  like a dog, cat, horse, cow, deer, pig, elephant, bear, lizard or none of them; stout "
+    "or thin,\n"
+    "                  short or long necks, ears, horns, manes, tails and trunks; one skin, several "
+    "surfaces, tubes\n"
+    "                  or blocks\n";
 
 struct Options {
   std::string out, family = "all";
@@ -95,11 +113,12 @@ int main(int argc, char** argv) {
   try {
     const Options options = parse(argc, argv);
     bool any = false;
-    for (const Family& family : families())
-      if (options.family == "all" || options.family == family.name) {
-        write_family(family, options);
-        any = true;
-      }
+    for (const auto* list : {&families(), &game_families()})
+      for (const Family& family : *list)
+        if ((options.family == "all" && list == &families()) || options.family == family.name) {
+          write_family(family, options);
+          any = true;
+        }
     if (!any) throw std::invalid_argument("no family is called " + options.family);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "focal_creatures: %s\n%s", error.what(), usage);

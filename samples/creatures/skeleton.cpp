@@ -3,7 +3,9 @@
 // 2008; halfway to linear blending, because the first swells at bent joints and the second shrinks.
 #include "skeleton.h"
 
+#include <algorithm>
 #include <numbers>
+#include <utility>
 
 namespace creatures {
 
@@ -43,6 +45,39 @@ Pose random_pose(const Skeleton& skeleton, const std::vector<Freedom>& freedoms,
     pose[i] = pose[i] * Eigen::Translation3d(joint.rest) * local[i] * Eigen::Translation3d(-joint.rest);
   }
   return pose;
+}
+
+std::vector<Influences> skin_of(std::vector<std::vector<double>> weights,
+                                const std::vector<Triangle>& triangles, int rounds) {
+  const size_t count = weights.size(), bones = count ? weights.front().size() : 0;
+  for (int round = 0; round < rounds; ++round) {
+    std::vector<std::vector<double>> sums(count, std::vector<double>(bones, 0.0));
+    for (const Triangle& t : triangles)
+      for (int corner : t)
+        for (int other : t)
+          for (size_t b = 0; b < bones; ++b) sums[corner][b] += weights[other][b];
+    for (auto& w : sums) {
+      double total = 0;
+      for (double x : w) total += x;
+      for (double& x : w) x /= total;
+    }
+    weights = std::move(sums);
+  }
+  std::vector<Influences> result(count);
+  for (size_t v = 0; v < count; ++v) {
+    std::vector<double>& w = weights[v];
+    double total = 0;
+    for (int k = 0; k < max_influences; ++k) {
+      const auto best = std::max_element(w.begin(), w.end());
+      if (*best < 1e-4) break;
+      result[v].joints[k] = static_cast<int>(best - w.begin());
+      result[v].weights[k] = *best;
+      total += *best;
+      *best = 0;
+    }
+    for (double& x : result[v].weights) x /= total;
+  }
+  return result;
 }
 
 Vec3 bend(const Vec3& rest, const Influences& influences, const Pose& pose) {

@@ -45,6 +45,10 @@ struct Influences {
   std::array<double, max_influences> weights{};
 };
 
+// From weights of each bone at each vertex: averaged over neighbours `rounds` times, then the strongest few.
+std::vector<Influences> skin_of(std::vector<std::vector<double>> weights,
+                                const std::vector<Triangle>& triangles, int rounds);
+
 Vec3 bend(const Vec3& rest, const Influences& influences, const Pose& pose);
 
 }  // namespace creatures

@@ -64,7 +64,7 @@ class Glb {
     Json primitive{{"attributes", {{"POSITION", position}}},
                    {"indices", add(indices, 5125, "SCALAR", 1, 34963)}};
     root["meshes"].push_back({{"name", name}, {"primitives", Json::array({primitive})}});
-    return root["meshes"][0]["primitives"][0]["attributes"];
+    return root["meshes"].back()["primitives"][0]["attributes"];
   }
 
   void write(const std::filesystem::path& path) {
@@ -151,9 +151,29 @@ void add_animation(Glb& glb, const Character& made) {
       Json::array({{{"name", "stretch"}, {"samplers", samplers}, {"channels", channels}}});
 }
 
+// A mesh for each piece, all with the one skin: node 0, and after the joints' nodes the others.
+void add_skinned_meshes(Glb& glb, const Character& made) {
+  size_t vertex = 0, triangle = 0;
+  for (const Piece& piece : made.pieces) {
+    const auto from = made.rest.positions.begin() + static_cast<std::ptrdiff_t>(vertex);
+    const auto skin = made.skin.begin() + static_cast<std::ptrdiff_t>(vertex);
+    std::vector<Triangle> triangles;
+    for (int t = 0; t < piece.triangles; ++t, ++triangle) {
+      triangles.push_back(made.rest.triangles[triangle]);
+      for (int& v : triangles.back()) v -= static_cast<int>(vertex);
+    }
+    add_skin_attributes(glb, glb.add_mesh(piece.name, {from, from + piece.vertices}, triangles),
+                        {skin, skin + piece.vertices});
+    vertex += static_cast<size_t>(piece.vertices);
+  }
+}
+
 void write_rig(const Character& made, const std::filesystem::path& path) {
   Glb glb;
-  add_skin_attributes(glb, glb.add_mesh(made.name, made.rest.positions, made.rest.triangles), made.skin);
+  if (made.pieces.empty())
+    add_skin_attributes(glb, glb.add_mesh(made.name, made.rest.positions, made.rest.triangles), made.skin);
+  else
+    add_skinned_meshes(glb, made);
   std::vector<float> inverse_binds;
   Json joints = Json::array();
   for (const Joint& joint : made.skeleton.joints) {
@@ -164,9 +184,14 @@ void write_rig(const Character& made, const std::filesystem::path& path) {
   }
   glb.root["nodes"] = Json::array({{{"name", made.name}, {"mesh", 0}, {"skin", 0}}});
   add_joint_nodes(glb, made.skeleton);
+  Json scene = Json::array({0, 1});
+  for (size_t i = 1; i < made.pieces.size(); ++i) {
+    scene.push_back(glb.root["nodes"].size());
+    glb.root["nodes"].push_back({{"name", made.pieces[i].name}, {"mesh", i}, {"skin", 0}});
+  }
   const int binds = glb.add(inverse_binds, 5126, "MAT4", 16);
   glb.root["skins"] = Json::array({{{"skeleton", 1}, {"joints", joints}, {"inverseBindMatrices", binds}}});
-  glb.root["scenes"] = Json::array({{{"nodes", {0, 1}}}});
+  glb.root["scenes"] = Json::array({{{"nodes", scene}}});
   add_animation(glb, made);
   glb.write(path);
 }

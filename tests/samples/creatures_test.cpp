@@ -29,6 +29,20 @@ const std::vector<Character>& characters() {
   return all;
 }
 
+constexpr int game_seeds = 12;
+
+// Of parts, which may be open and may overlap: only what holds for all of them is checked.
+const std::vector<Character>& game_characters() {
+  static const std::vector<Character> all = [] {
+    std::vector<Character> made;
+    for (const Family& family : game_families())
+      for (uint64_t seed = 1; seed <= game_seeds; ++seed)
+        made.push_back(make_character(family, std::string(family.name) + std::to_string(seed), seed));
+    return made;
+  }();
+  return all;
+}
+
 std::string bytes(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;
@@ -191,6 +205,120 @@ TEST_CASE("different seeds make different individuals and triangulations, the sa
       CHECK(first.size() > 1000);
       CHECK(first == bytes(folder / "again" / (one.name + ending)));
     }
+  }
+  std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("pieces of game characters share no vertex and make up the whole mesh") {
+  for (const Character& c : game_characters()) {
+    CAPTURE(c.name);
+    CHECK(c.pieces.size() >= 1);
+    CHECK(c.pieces.size() <= 60);
+    size_t triangle = 0;
+    int vertex = 0;
+    bool inside = true;
+    for (const Piece& piece : c.pieces) {
+      CHECK(piece.triangles > 0);
+      for (int t = 0; t < piece.triangles; ++t, ++triangle)
+        for (int v : c.rest.triangles.at(triangle)) inside &= v >= vertex && v < vertex + piece.vertices;
+      vertex += piece.vertices;
+    }
+    CHECK(inside);
+    CHECK(triangle == c.rest.triangles.size());
+    CHECK(static_cast<size_t>(vertex) == c.rest.positions.size());
+    CHECK(c.posed.size() == c.rest.positions.size());
+  }
+}
+
+TEST_CASE("skins of game characters are convex, use every joint, and leave eyes on the head alone") {
+  for (const Character& c : game_characters()) {
+    CAPTURE(c.name);
+    REQUIRE(c.skin.size() == c.rest.positions.size());
+    std::set<int> used;
+    double off = 0, least = 0;
+    for (const Influences& v : c.skin) {
+      double sum = 0;
+      for (int k = 0; k < max_influences; ++k) {
+        sum += v.weights[k];
+        least = std::min(least, v.weights[k]);
+        if (v.weights[k] > 0.3) used.insert(v.joints[k]);
+      }
+      off = std::max(off, std::abs(sum - 1));
+    }
+    CHECK(off < 1e-12);
+    CHECK(least >= 0);
+    CHECK(used.size() == c.skeleton.joints.size());
+    size_t vertex = 0;
+    for (const Piece& piece : c.pieces) {
+      if (piece.name.starts_with("eye"))
+        for (int v = 0; v < piece.vertices; ++v) {
+          const Influences& eye = c.skin[vertex + static_cast<size_t>(v)];
+          CHECK(c.skeleton.joints[eye.joints[0]].name == "head");
+          CHECK(eye.weights[0] == 1);
+        }
+      vertex += static_cast<size_t>(piece.vertices);
+    }
+  }
+}
+
+TEST_CASE("game characters stand on the ground, hold their joints, and look forward") {
+  for (const Character& c : game_characters()) {
+    CAPTURE(c.name);
+    Eigen::AlignedBox3d box;
+    for (const Vec3& p : c.rest.positions) box.extend(p);
+    CHECK(box.min().allFinite());
+    CHECK(box.max().allFinite());
+    CHECK(box.min().y() == doctest::Approx(0));
+    for (size_t j = 0; j < c.skeleton.joints.size(); ++j) {
+      const Joint& joint = c.skeleton.joints[j];
+      CAPTURE(joint.name);
+      CHECK(box.exteriorDistance(joint.rest) < 0.01 * box.diagonal().norm());
+      if (joint.name.starts_with("left")) CHECK(joint.rest.x() > 0);
+      CHECK((mirrored(joint.rest) - c.skeleton.joints[c.skeleton.mirror[j]].rest).norm() < 1e-12);
+      if (joint.name == "leftToes") CHECK(joint.tip.z() > joint.rest.z());
+    }
+    CHECK(c.landmarks.size() >= 16);
+  }
+}
+
+TEST_CASE("game humanoids have heads from small to large and arms from level to hanging") {
+  double small_head = 1, large_head = 0, high = -1, low = 1;
+  for (int i = 0; i < game_seeds; ++i) {
+    const Skeleton& s = game_characters()[static_cast<size_t>(i)].skeleton;
+    const auto named = [&](const char* name) {
+      for (const Joint& joint : s.joints)
+        if (joint.name == name) return joint;
+      FAIL("no joint " << name);
+      return Joint();
+    };
+    const Joint head = named("head"), arm = named("leftUpperArm");
+    const double share = (head.tip - head.rest).norm() / head.tip.y();
+    const double rise = (arm.tip - arm.rest).normalized().y();
+    small_head = std::min(small_head, share), large_head = std::max(large_head, share);
+    high = std::max(high, rise), low = std::min(low, rise);
+    CHECK(s.joints.size() == 22);
+  }
+  CHECK(small_head < 0.16);
+  CHECK(large_head > 0.28);
+  CHECK(high > -0.15);
+  CHECK(low < -0.7);
+}
+
+TEST_CASE("a game character's files are the same again, with a mesh for each piece") {
+  const auto folder = std::filesystem::temp_directory_path() / "focal_game_creatures_test";
+  for (size_t f = 0; f < game_families().size(); ++f) {
+    const Character& one = game_characters()[f * game_seeds];
+    const Character again = make_character(game_families()[f], one.name, 1);
+    write_character(one, folder / "one");
+    write_character(again, folder / "again");
+    for (const char* ending : {".glb", ".rig.glb", ".joints.json", ".landmarks.json"})
+      CHECK(bytes(folder / "one" / (one.name + ending)) == bytes(folder / "again" / (one.name + ending)));
+    const std::string rig = bytes(folder / "one" / (one.name + ".rig.glb"));
+    size_t skins = 0;
+    for (size_t at = rig.find("\"WEIGHTS_0\""); at != std::string::npos;
+         at = rig.find("\"WEIGHTS_0\"", at + 1))
+      ++skins;
+    CHECK(skins == one.pieces.size());
   }
   std::filesystem::remove_all(folder);
 }
