@@ -43,6 +43,13 @@ void add_torso(Flesh& flesh, const Plan& plan) {
                          .bones = {{b.upper_chest}, {b.shoulder, 0.35, 0.08}},
                          .blend = 0.06,
                          .paired = true});
+}
+
+void add_curves(Flesh& flesh, const Plan& plan) {
+  const Style& y = plan.style;
+  const Places& p = plan.at;
+  const Bones& b = plan.bones;
+  const double w = p.width, d = w * y.depth, h = w * y.hips, s = w * y.shoulders;
   const double bust = (0.02 + 0.022 * y.bust) * d;
   const Vec3 breast(0.078 * s, 0.45 * p.chest.y() + 0.55 * p.upper_chest.y(), 0.072 * d);
   flesh.torso.push_back(ellipsoid(breast, {0.062 * s, 0.065 * w, 0.025 * d + bust}, b.chest, 0.05));
@@ -265,6 +272,7 @@ std::vector<Sweep> Flesh::all() const {
 Flesh flesh_of(const Plan& plan) {
   Flesh flesh;
   add_torso(flesh, plan);
+  add_curves(flesh, plan);
   add_arms(flesh, plan);
   add_hands(flesh, plan);
   add_legs(flesh, plan);

@@ -88,6 +88,12 @@ void add_head(Flesh& flesh, const Plan& plan) {
     flesh.head.push_back(cone(tip, half, 0.045 * h, 0.034 * h, plan.bones.head, 0.03));
     flesh.head.push_back(cone(half, end, 0.034 * h, 0.024 * h, plan.bones.head, 0.02));
   }
+}
+
+void add_ears(Flesh& flesh, const Plan& plan) {
+  const Style& y = plan.style;
+  const Places& p = plan.at;
+  const double h = y.head;
   const double e = h * y.ears, wide = std::max(0.02, 0.034 * e * y.ear_wide),
                flat = std::max(0.011, 0.012 * h);
   flesh.ears.push_back({.from = p.ear,
@@ -232,7 +238,7 @@ void make_flesh(Shop& shop, const Plan& plan, const Flesh& f) {
   const double thin = std::clamp(0.5 * plan.style.limbs * 0.03, 0.0115, 0.018);
   // Apart from the body: by taste, and where large triangles would break what is thin.
   const bool ears = plan.style.make != Make::skin || n < 700 || shop.chance(0.25);
-  const bool tail = n < 1000 || plan.style.tail_thick < 0.8 || shop.chance(0.15);
+  const bool tail = n < 1000 || plan.style.tail < 0.2 || plan.style.tail_thick < 0.8 || shop.chance(0.15);
   if (plan.style.make == Make::tubes) {
     Tube how = shop.usual();
     for (const Sweep& s : f.all())
@@ -266,6 +272,7 @@ Flesh flesh_of(const Plan& plan) {
   add_trunk(flesh, plan);
   add_tail(flesh, plan);
   add_head(flesh, plan);
+  add_ears(flesh, plan);
   add_leg(flesh, plan.style, {p.shoulder, p.elbow, p.wrist, p.front_paw, p.front_toe}, b.chest,
           {b.front_upper, b.front_lower, b.front_foot, b.front_paw}, 1);
   add_leg(flesh, plan.style, {p.hip, p.knee, p.hock, p.hind_paw, p.hind_toe}, b.hips,

@@ -1,6 +1,7 @@
 // The range of game quadrupeds: style, places of the joints, skeleton.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "game_quadruped.h"
 
@@ -10,61 +11,126 @@ namespace {
 constexpr double degree = EIGEN_PI / 180;
 
 // What is usual for a species; individuals vary around it.
-Style usual(Species species) {
-  Style s{};
-  s.species = species;
-  s.height = 0.56, s.barrel = 1.1, s.chest = 1, s.waist = 0.85, s.limbs = 1, s.paws = 1, s.crouch = 1;
-  s.neck = 0.26, s.neck_up = 48, s.head = 1, s.head_wide = 1, s.muzzle = 1, s.muzzle_thick = 1, s.nod = 15;
-  s.ears = 1, s.ear_up = 70, s.ear_wide = 1, s.tail = 0.45, s.tail_up = -10, s.tail_thick = 1;
-  switch (species) {
-    case Species::cat:
-      s.height = 0.48, s.barrel = 0.9, s.neck = 0.2, s.muzzle = 0.35, s.head_wide = 1.2, s.tail = 0.6,
-      s.ears = 0.8;
-      break;
-    case Species::horse:
-      s.height = 0.72, s.barrel = 1.5, s.neck = 0.42, s.neck_up = 52, s.head = 1.15, s.muzzle = 1.5,
-      s.nod = 45;
-      s.ears = 0.7, s.hooves = true, s.crouch = 0.75, s.tail_up = -65, s.mane = 0.6, s.head_wide = 0.85;
-      break;
-    case Species::cow:
-      s.height = 0.58, s.barrel = 1.75, s.waist = 1, s.neck = 0.27, s.neck_up = 25, s.head = 1.2,
-      s.muzzle = 1.3, s.nod = 35;
-      s.ears = 0.8, s.ear_up = 0, s.hooves = true, s.crouch = 0.6, s.tail_up = -75, s.horns = 0.6,
-      s.muzzle_thick = 1.3;
-      break;
-    case Species::deer:
-      s.height = 0.74, s.barrel = 1.15, s.limbs = 0.75, s.neck = 0.38, s.neck_up = 60, s.muzzle = 1.2,
-      s.nod = 25;
-      s.ears = 1.1, s.ear_up = 45, s.hooves = true, s.tail = 0.13, s.horns = 0.7, s.head = 0.9;
-      break;
-    case Species::pig:
-      s.height = 0.4, s.barrel = 1.65, s.waist = 1.05, s.neck = 0.2, s.neck_up = 8, s.head = 1.25,
-      s.muzzle = 1, s.muzzle_thick = 1.4;
-      s.ears = 0.9, s.hooves = true, s.crouch = 0.5, s.tail = 0.16, s.tail_thick = 0.6, s.limbs = 1.05;
-      break;
-    case Species::elephant:
-      s.height = 0.66, s.barrel = 2.1, s.waist = 1, s.limbs = 2, s.paws = 1.3, s.neck = 0.26, s.neck_up = 25,
-      s.head = 1.9;
-      s.muzzle = 0.5, s.ears = 1.35, s.ear_up = -30, s.ear_wide = 2, s.crouch = 0.1, s.trunk = 1,
-      s.tail_up = -75, s.tail_thick = 0.6;
-      break;
-    case Species::bear:
-      s.height = 0.52, s.barrel = 1.65, s.waist = 1.05, s.limbs = 1.6, s.paws = 1.5, s.neck = 0.22,
-      s.neck_up = 22, s.head = 1.3;
-      s.muzzle = 0.8, s.ears = 0.6, s.ear_wide = 1.4, s.tail = 0.1, s.crouch = 0.5, s.hump = 0.4,
-      s.head_wide = 1.15;
-      break;
-    case Species::lizard:
-      s.height = 0.26, s.barrel = 0.85, s.waist = 1.05, s.neck = 0.2, s.neck_up = 12, s.head = 1,
-      s.muzzle = 1.4, s.nod = 5;
-      s.ears = 0.25, s.tail = 0.95, s.tail_up = -12, s.tail_thick = 2.6, s.sprawl = 0.15, s.crouch = 0.6,
-      s.paws = 1.1;
-      break;
-    default:
-      break;
-  }
-  return s;
-}
+constexpr Style usual[] = {
+    {.species = Species::dog},
+    {.species = Species::cat,
+     .height = 0.48,
+     .barrel = 0.9,
+     .neck = 0.2,
+     .head_wide = 1.2,
+     .muzzle = 0.35,
+     .ears = 0.8,
+     .tail = 0.6},
+    {.species = Species::horse,
+     .hooves = true,
+     .height = 0.72,
+     .barrel = 1.5,
+     .crouch = 0.75,
+     .neck = 0.42,
+     .neck_up = 52,
+     .head = 1.15,
+     .head_wide = 0.85,
+     .muzzle = 1.5,
+     .nod = 45,
+     .ears = 0.7,
+     .tail_up = -65,
+     .mane = 0.6},
+    {.species = Species::cow,
+     .hooves = true,
+     .height = 0.58,
+     .barrel = 1.75,
+     .waist = 1,
+     .crouch = 0.6,
+     .neck = 0.27,
+     .neck_up = 25,
+     .head = 1.2,
+     .muzzle = 1.3,
+     .muzzle_thick = 1.3,
+     .nod = 35,
+     .ears = 0.8,
+     .ear_up = 0,
+     .tail_up = -75,
+     .horns = 0.6},
+    {.species = Species::deer,
+     .hooves = true,
+     .height = 0.74,
+     .barrel = 1.15,
+     .limbs = 0.75,
+     .neck = 0.38,
+     .neck_up = 60,
+     .head = 0.9,
+     .muzzle = 1.2,
+     .nod = 25,
+     .ears = 1.1,
+     .ear_up = 45,
+     .tail = 0.13,
+     .horns = 0.7},
+    {.species = Species::pig,
+     .hooves = true,
+     .height = 0.4,
+     .barrel = 1.65,
+     .waist = 1.05,
+     .limbs = 1.05,
+     .crouch = 0.5,
+     .neck = 0.2,
+     .neck_up = 8,
+     .head = 1.25,
+     .muzzle = 1,
+     .muzzle_thick = 1.4,
+     .ears = 0.9,
+     .tail = 0.16,
+     .tail_thick = 0.6},
+    {.species = Species::elephant,
+     .height = 0.66,
+     .barrel = 2.1,
+     .waist = 1,
+     .limbs = 2,
+     .paws = 1.3,
+     .crouch = 0.1,
+     .neck = 0.26,
+     .neck_up = 25,
+     .head = 1.9,
+     .muzzle = 0.5,
+     .ears = 1.35,
+     .ear_up = -30,
+     .ear_wide = 2,
+     .tail_up = -75,
+     .tail_thick = 0.6,
+     .trunk = 1},
+    {.species = Species::bear,
+     .height = 0.52,
+     .barrel = 1.65,
+     .waist = 1.05,
+     .limbs = 1.6,
+     .paws = 1.5,
+     .crouch = 0.5,
+     .neck = 0.22,
+     .neck_up = 22,
+     .head = 1.3,
+     .head_wide = 1.15,
+     .muzzle = 0.8,
+     .ears = 0.6,
+     .ear_wide = 1.4,
+     .tail = 0.1,
+     .hump = 0.4},
+    {.species = Species::lizard,
+     .height = 0.26,
+     .barrel = 0.85,
+     .waist = 1.05,
+     .paws = 1.1,
+     .crouch = 0.6,
+     .sprawl = 0.15,
+     .neck = 0.2,
+     .neck_up = 12,
+     .head = 1,
+     .muzzle = 1.4,
+     .nod = 5,
+     .ears = 0.25,
+     .tail = 0.95,
+     .tail_up = -12,
+     .tail_thick = 2.6},
+    {.species = Species::any},
+};
 
 void vary_trunk(Style& s, Random& random) {
   const bool wild = s.species == Species::any;  // nobody knows what it is
@@ -114,8 +180,9 @@ void vary_head(Style& s, Random& random) {
 }
 
 Style random_style(Random& random) {
-  const int kinds = static_cast<int>(Species::count);
-  Style s = usual(static_cast<Species>(std::min(static_cast<int>(random.uniform(0, kinds + 2)), kinds - 1)));
+  const double kind =
+      random.uniform(0, static_cast<double>(std::size(usual)) + 2);  // `any` counts three times
+  Style s = usual[std::min(static_cast<size_t>(kind), std::size(usual) - 1)];
   vary_trunk(s, random);
   vary_head(s, random);
   const double make = random.uniform(0, 1), wealth = random.uniform(0, 1);
