@@ -157,7 +157,8 @@ Supposition suppose(const LandmarkModel& model, const SurfaceAnalysis& analysis,
   Placement& start = result.start;
   const RowMatrixf features = features_of(analysis, samples, model.params, heading.frame);
   start.frame = heading.frame, result.penalty = heading.penalty;
-  start.exemplars = most_alike(model, features, used_exemplars);
+  start.exemplars = most_alike(model, features, getenv("K_EX") ? atoi(getenv("K_EX")) : used_exemplars);
+  if (getenv("FOCAL_TRACE")) { fprintf(stderr, "exemplars"); for (int e : start.exemplars) fprintf(stderr, " %d", e); fprintf(stderr, "\n"); }
   result.statistics = statistics_of(model, start.exemplars);
   start.votes = cast_votes(model, analysis, features, execution, seconds);
   Stopwatch watch;
@@ -178,6 +179,9 @@ Supposition suppose(const LandmarkModel& model, const SurfaceAnalysis& analysis,
   result.candidates.certain = std::move(certain);
   ConstellationParams how;
   if (model.params.oriented) how.restarts = oriented_restarts;
+  const auto knob = [](const char* n, double d) { return getenv(n) ? atof(getenv(n)) : d; };
+  how.unary_weight = knob("K_UNARY", how.unary_weight), how.pair_weight = knob("K_PAIR", how.pair_weight);
+  how.handedness_weight = knob("K_HAND", how.handedness_weight), how.absent_cost = knob("K_ABSENT", how.absent_cost);
   if (!analysis.proxy.full->is_oriented) how.handedness_weight = 0;
   result.choices = choose_constellations(result.statistics, result.candidates, how, execution);
   // What the votes are worth beside those of another supposition: a wrong one scatters them.
