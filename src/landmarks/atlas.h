@@ -6,6 +6,7 @@
 
 #include "landmarks/model_parts.h"
 #include "landmarks/surface_analysis.h"
+#include "mesh/closest_point.h"
 
 namespace focal {
 
@@ -15,10 +16,18 @@ AtlasShape remember_shape(const SurfaceAnalysis& analysis,
                           const std::vector<std::optional<SurfacePoint>>& points, const RowMatrixf& fields,
                           float reach, const std::optional<ShapeRig>& rig = std::nullopt);
 
+// A place near the surface, and how much of a shape's word it has.
+struct CarriedPlace {
+  SurfaceQuery at;
+  float share = 0;
+};
+
 // What one training shape says of a new one.
 struct CarriedMarks {
-  std::vector<std::optional<SurfacePoint>> point;  // one a landmark, where it is marked on the training shape
-  float residual = 0;                              // of the map: small where the shapes are alike
+  // One entry a landmark: where it lies, by each of the vertices that it lies between; empty where the training shape is not
+  // marked.
+  std::vector<std::vector<CarriedPlace>> places;
+  float residual = 0;  // of the map: small where the shapes are alike
 };
 
 struct CarryParams {
