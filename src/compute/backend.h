@@ -8,7 +8,7 @@
 
 namespace focal {
 
-inline constexpr uint32_t compute_version = 2;  // changes whenever the table does
+inline constexpr uint32_t compute_version = 3;  // changes whenever the table does
 inline constexpr const char* compute_entry_name = "focal_compute_entry";
 
 struct ComputeFailure {
@@ -122,10 +122,10 @@ struct ComputeTable {
   // Votes along isolines, averaged. out: n x columns.
   int32_t (*isoline_votes)(void* surface, const ComputeIsolines* isolines, float* out,
                            ComputeFailure* failure);
-  // image: points, where they lie at first and at last; C: most x most by columns; error: points x 2, how far the points lie
-  // from their images in the embedding, and their size, squared.
-  int32_t (*zoom_out)(void* surface, const ComputeMap* map, int32_t* image, float* C, double* error,
-                      ComputeFailure* failure);
+  // image, weight: points x 3, between which vertices they lie at first and at last, the nearest first; C: most x most by
+  // columns; error: points x 2, how far the points lie from their nearest vertices in the embedding, and their size, squared.
+  int32_t (*zoom_out)(void* surface, const ComputeMap* map, int32_t* image, float* weight, float* C,
+                      double* error, ComputeFailure* failure);
   // Stages of this surface since the last report; returns how many, at most `room`.
   int32_t (*stages)(void* surface, ComputeStage* out, int32_t room);
 };

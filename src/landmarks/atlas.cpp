@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <unordered_map>
 
 #include "landmarks/backend_surface.h"
 #include "landmarks/embedded_surface.h"
@@ -13,6 +14,8 @@ namespace focal {
 namespace {
 
 constexpr int32_t remembered_points = 800;  // of a training shape; 500 measured a tenth worse
+constexpr int rings = 3;                    // of triangles round a vertex near a mark's place
+constexpr double noise_share = 0.5;         // of a map's dimensions that err on their own
 
 MatrixX3 rows_of(const MatrixX3& positions, const std::vector<int32_t>& rows) {
   MatrixX3 result(rows.size(), 3);
@@ -51,9 +54,9 @@ void remember_rig(const SurfaceAnalysis& analysis, const std::vector<int32_t>& s
   }
 }
 
-// Where each remembered point starts: at the spread vertex with the most similar distances to the landmarks of both.
-std::vector<int32_t> first_images(const AtlasShape& shape, float reach, const std::vector<int32_t>& landmark,
-                                  const RowMatrixf& fields, const std::vector<int32_t>& spread) {
+// Where each remembered point starts: between the spread vertices with the most similar distances to the landmarks of both.
+PlacesBetween first_images(const AtlasShape& shape, float reach, const std::vector<int32_t>& landmark,
+                           const RowMatrixf& fields, const std::vector<int32_t>& spread) {
   std::vector<Eigen::Index> shared;
   for (size_t p = 0; p < landmark.size(); ++p)
     if (shape.marked[landmark[p]]) shared.push_back(static_cast<Eigen::Index>(p));
@@ -62,48 +65,89 @@ std::vector<int32_t> first_images(const AtlasShape& shape, float reach, const st
     for (size_t i = 0; i < spread.size(); ++i) here(i, s) = fields(shared[s], spread[i]);
     there.col(s) = shape.distances.col(landmark[shared[s]]).cast<float>() * (reach / target_steps);
   }
-  std::vector<int32_t> images = nearest_rows(there, here);
-  for (int32_t& i : images) i = spread[i];
-  images.resize(shape.samples.Phi.rows(), 0);  // the marks follow, without weight
+  PlacesBetween images = nearest_between(there, here);
+  for (int32_t& i : images.vertex) i = spread[i];
+  images.vertex.resize(shape.samples.Phi.rows() * PlacesBetween::vertices,
+                       0);  // the marks follow, without weight
+  images.weight.resize(images.vertex.size(), 0);
   return images;
 }
 
-// Mean over the radii of the correlation by area.
-float bulge_agreement(const AtlasShape& shape, const FunctionalMap& map, const SurfaceAnalysis& analysis) {
-  const Eigen::Index points = shape.bulge.rows();
-  if (points == 0 || analysis.bulge.rows() == 0) return 0;
-  const Eigen::VectorXf weight = shape.samples.weight.head(points) / shape.samples.weight.head(points).sum();
-  float sum = 0;
-  for (Eigen::Index r = 0; r < shape.bulge.cols(); ++r) {
-    Eigen::VectorXf there = shape.bulge.col(r), here(points);
-    for (Eigen::Index i = 0; i < points; ++i) here[i] = analysis.bulge(map.image[i], r);
-    there.array() -= weight.dot(there), here.array() -= weight.dot(here);
-    const float size = std::sqrt(weight.dot(there.cwiseAbs2()) * weight.dot(here.cwiseAbs2()));
-    if (size > 0) sum += weight.dot(there.cwiseProduct(here)) / size;
+// The triangles up to a few edges away from a vertex.
+std::vector<int32_t> surroundings(const TriangleMesh& mesh,
+                                  const std::vector<std::vector<int32_t>>& triangles_at, int32_t vertex) {
+  std::vector<int32_t> vertices = {vertex}, triangles;
+  for (int ring = 0; ring < rings; ++ring) {
+    triangles.clear();
+    for (const int32_t v : vertices)
+      triangles.insert(triangles.end(), triangles_at[v].begin(), triangles_at[v].end());
+    std::sort(triangles.begin(), triangles.end());
+    triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
+    vertices.clear();
+    for (const int32_t t : triangles)
+      for (int c = 0; c < 3; ++c) vertices.push_back(mesh.triangles(t, c));
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   }
-  return sum / static_cast<float>(shape.bulge.cols());
+  return triangles;
+}
+
+// The mean of the nearest points of some triangles, each as likely as the map's noise makes it. The nearest of all would jump
+// from triangle to triangle: off the surface, many are about as near.
+SurfaceQuery mean_of_nearest(const TriangleMesh& mesh, const MatrixX3& normals,
+                             const EmbeddedSurface& embedded, const std::vector<int32_t>& triangles,
+                             const Eigen::VectorXf& place) {
+  std::vector<EmbeddedSurface::Nearest> nearest;
+  float least = std::numeric_limits<float>::infinity();
+  for (const int32_t t : triangles) {
+    nearest.push_back(embedded.nearest(t, place));
+    least = std::min(least, nearest.back().squared);
+  }
+  const double sharpness = noise_share * static_cast<double>(place.size()) / (2 * std::max(least, 1e-12f));
+  SurfaceQuery sum{Vector3::Zero(), Vector3::Zero()};
+  double total = 0;
+  for (const auto& [point, squared] : nearest) {
+    const double weight = std::exp(sharpness * (least - squared));
+    sum.position += weight * position_of(mesh, point);
+    sum.normal += weight * normals.row(point.triangle).transpose();
+    total += weight;
+  }
+  sum.position /= total;
+  return sum;
 }
 
 CarriedMarks carry(const AtlasShape& shape, const FunctionalMap& map, const SurfaceAnalysis& analysis,
-                   const std::vector<std::vector<int32_t>>& triangles_at) {
+                   const MatrixX3& normals, const std::vector<std::vector<int32_t>>& triangles_at) {
   const auto L = static_cast<int32_t>(shape.marked.size());
   const auto points = static_cast<int32_t>(shape.distances.rows());
-  const EmbeddedSurface embedded(analysis.surface(), [&](int32_t v) -> Eigen::VectorXf {
-    return map.C * analysis.eigenfunctions.row(v).head(map.C.cols()).transpose();
+  const TriangleMesh& surface = analysis.surface();
+  std::unordered_map<int32_t, Eigen::VectorXf> known;
+  const EmbeddedSurface embedded(surface, [&](int32_t v) -> Eigen::VectorXf {
+    Eigen::VectorXf& place = known[v];
+    if (place.size() == 0) place = map.C * analysis.eigenfunctions.row(v).head(map.C.cols()).transpose();
+    return place;
   });
   CarriedMarks result;
   result.residual = map.residual;
-  result.bulge_agreement = bulge_agreement(shape, map, analysis);
-  result.point.resize(L);
-  for (int32_t l = 0; l < L; ++l)
-    if (shape.marked[l])
-      result.point[l] = embedded.nearest(triangles_at[map.image[points + l]],
-                                         shape.samples.Phi.row(points + l).head(map.C.rows()).transpose());
+  result.places.resize(L);
+  for (int32_t l = 0; l < L; ++l) {
+    if (!shape.marked[l]) continue;
+    for (int32_t i = 0; i < PlacesBetween::vertices; ++i) {
+      const size_t at = static_cast<size_t>(points + l) * PlacesBetween::vertices + i;
+      const float share = map.places.weight[at];
+      if (share > 0)
+        result.places[l].push_back(
+            {mean_of_nearest(surface, normals, embedded,
+                             surroundings(surface, triangles_at, map.places.vertex[at]),
+                             shape.samples.Phi.row(points + l).head(map.C.rows()).transpose()),
+             share});
+    }
+  }
   return result;
 }
 
 FunctionalMap refined(const AtlasShape& shape, const SurfaceAnalysis& analysis,
-                      const SpectralTargets& targets, std::vector<int32_t> images, const MapParams& params) {
+                      const SpectralTargets& targets, PlacesBetween images, const MapParams& params) {
   return analysis.on_backend
              ? analysis.on_backend->zoom_out(shape.samples, targets, std::move(images), params)
              : zoom_out(shape.samples, targets, std::move(images), params);
@@ -112,7 +156,7 @@ FunctionalMap refined(const AtlasShape& shape, const SurfaceAnalysis& analysis,
 // A shape and where its points start from on the new surface.
 struct Start {
   int32_t shape = 0;
-  std::vector<int32_t> images;
+  PlacesBetween images;
   float residual = 0;  // of the coarse map
 };
 
@@ -127,7 +171,7 @@ std::vector<Start> most_alike(std::vector<Start> starts, const std::vector<Atlas
   parallel_for(execution, static_cast<int64_t>(starts.size()), [&](int64_t i) {
     Start& start = starts[i];
     FunctionalMap map = refined(atlas[start.shape], analysis, targets, std::move(start.images), coarse);
-    start.images = std::move(map.image), start.residual = map.residual;
+    start.images = std::move(map.places), start.residual = map.residual;
   });
   std::stable_sort(starts.begin(), starts.end(),
                    [](const Start& a, const Start& b) { return a.residual < b.residual; });
@@ -209,12 +253,28 @@ void find_exact_images(std::vector<ShapeMap>& maps, const std::vector<AtlasShape
   });
 }
 
+float bulge_agreement(const AtlasShape& shape, const FunctionalMap& map, const SurfaceAnalysis& analysis) {
+  const Eigen::Index points = shape.bulge.rows();
+  if (points == 0 || analysis.bulge.rows() == 0) return 0;
+  const Eigen::VectorXf weight = shape.samples.weight.head(points) / shape.samples.weight.head(points).sum();
+  float sum = 0;
+  for (Eigen::Index r = 0; r < shape.bulge.cols(); ++r) {
+    Eigen::VectorXf there = shape.bulge.col(r), here(points);
+    for (Eigen::Index i = 0; i < points; ++i) here[i] = analysis.bulge(map.image[i], r);
+    there.array() -= weight.dot(there), here.array() -= weight.dot(here);
+    const float size = std::sqrt(weight.dot(there.cwiseAbs2()) * weight.dot(here.cwiseAbs2()));
+    if (size > 0) sum += weight.dot(there.cwiseProduct(here)) / size;
+  }
+  return sum / static_cast<float>(shape.bulge.cols());
+}
+
 std::vector<CarriedMarks> carry_marks(const std::vector<AtlasShape>& atlas, const std::vector<ShapeMap>& maps,
                                       const SurfaceAnalysis& analysis, const Execution& execution) {
   const auto triangles_at = triangles_round(analysis.surface());
+  const MatrixX3 normals = face_normals(analysis.surface());
   std::vector<CarriedMarks> result(maps.size());
   parallel_for(execution, static_cast<int64_t>(maps.size()), [&](int64_t i) {
-    result[i] = carry(atlas[maps[i].shape], maps[i].map, analysis, triangles_at);
+    result[i] = carry(atlas[maps[i].shape], maps[i].map, analysis, normals, triangles_at);
   });
   return result;
 }

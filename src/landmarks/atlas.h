@@ -6,6 +6,7 @@
 
 #include "landmarks/model_parts.h"
 #include "landmarks/surface_analysis.h"
+#include "mesh/closest_point.h"
 
 namespace focal {
 
@@ -15,11 +16,18 @@ AtlasShape remember_shape(const SurfaceAnalysis& analysis,
                           const std::vector<std::optional<SurfacePoint>>& points, const RowMatrixf& fields,
                           float reach, const std::optional<ShapeRig>& rig = std::nullopt);
 
+// A place near the surface, and how much of a shape's word it has.
+struct CarriedPlace {
+  SurfaceQuery at;
+  float share = 0;
+};
+
 // What one training shape says of a new one.
 struct CarriedMarks {
-  std::vector<std::optional<SurfacePoint>> point;  // one a landmark, where it is marked on the training shape
-  float residual = 0;                              // of the map: small where the shapes are alike
-  float bulge_agreement = 0;  // correlation of how both surfaces bulge at the points and their images, -1..1
+  // One entry a landmark: where it lies, by each of the vertices that it lies between; empty where the training shape is not
+  // marked.
+  std::vector<std::vector<CarriedPlace>> places;
+  float residual = 0;  // of the map: small where the shapes are alike
 };
 
 struct CarryParams {
@@ -44,6 +52,10 @@ std::vector<ShapeMap> map_shapes(const std::vector<AtlasShape>& atlas, std::span
 // Moves the points' images, which lie at vertices that stand for all, to the nearest of all.
 void find_exact_images(std::vector<ShapeMap>& maps, const std::vector<AtlasShape>& atlas, const SurfaceAnalysis& analysis,
                        const Execution& execution);
+
+// Correlation by area of how both surfaces bulge at the points and their images, mean over the radii, -1..1. The true map of a body
+// has a clearly higher one than one that takes front for back.
+float bulge_agreement(const AtlasShape& shape, const FunctionalMap& map, const SurfaceAnalysis& analysis);
 
 // What each of the maps says of the landmarks.
 std::vector<CarriedMarks> carry_marks(const std::vector<AtlasShape>& atlas, const std::vector<ShapeMap>& maps,

@@ -199,7 +199,7 @@ RowMatrixf BackendSurface::isoline_votes(std::span<const int32_t> samples, const
 }
 
 FunctionalMap BackendSurface::zoom_out(const SpectralSamples& from, const SpectralTargets& to,
-                                       std::vector<int32_t> initial, const MapParams& params) const {
+                                       PlacesBetween initial, const MapParams& params) const {
   const std::scoped_lock lock(mutex_);
   constexpr int32_t tile = 4;  // of the CPU's kernels: rows come in fours
   const auto points = static_cast<int32_t>(from.Phi.rows());
@@ -209,7 +209,7 @@ FunctionalMap BackendSurface::zoom_out(const SpectralSamples& from, const Spectr
   const RowMatrixf weighted = from.weight.asDiagonal() * place;
   const Eigen::LLT<Eigen::MatrixXf> gram(place.transpose() * weighted);
   const Eigen::MatrixXf whitening = gram.matrixL().solve(Eigen::MatrixXf::Identity(most, most));
-  FunctionalMap map{Eigen::MatrixXf(most, most), std::move(initial)};
+  FunctionalMap map{Eigen::MatrixXf(most, most), std::vector<int32_t>(points), std::move(initial)};
   ComputeMap data{};
   data.eigenfunctions = to.Phi.data(), data.eigenpairs = static_cast<int32_t>(to.Phi.cols());
   data.points = points, data.most = most;
@@ -218,10 +218,13 @@ FunctionalMap BackendSurface::zoom_out(const SpectralSamples& from, const Spectr
   data.first = params.first, data.step = params.step;
   data.exact_from = params.exact_from < points ? params.exact_from / tile * tile : points;
   std::vector<double> error(2 * static_cast<size_t>(points));
-  backend_.call(backend_.table().zoom_out, surface_, &data, map.image.data(), map.C.data(), error.data());
+  backend_.call(backend_.table().zoom_out, surface_, &data, map.places.vertex.data(),
+                map.places.weight.data(), map.C.data(), error.data());
   require_numbers(map.C.data(), map.C.size()), require_numbers(error.data(), 2 * int64_t{points});
-  for (const int32_t image : map.image)
-    if (image < 0 || image >= vertices_) throw BackendFailure({0, "the device's results make no sense"});
+  require_numbers(map.places.weight.data(), static_cast<int64_t>(map.places.weight.size()));
+  for (const int32_t vertex : map.places.vertex)
+    if (vertex < 0 || vertex >= vertices_) throw BackendFailure({0, "the device's results make no sense"});
+  for (size_t p = 0; p < map.image.size(); ++p) map.image[p] = map.places.vertex[p * PlacesBetween::vertices];
   double away = 0, size = 0;
   for (size_t p = 0; p < map.image.size(); ++p)
     away += from.weight[p] * error[2 * p], size += from.weight[p] * error[2 * p + 1];

@@ -46,7 +46,7 @@ class BackendSurface {
   RowMatrixf isoline_votes(std::span<const int32_t> samples, const RowMatrixf& radii, double mu,
                            const Edges& edges, float neighbourhood) const;
   // As zoom_out; to.Phi must be the same at every call.
-  FunctionalMap zoom_out(const SpectralSamples& from, const SpectralTargets& to, std::vector<int32_t> initial,
+  FunctionalMap zoom_out(const SpectralSamples& from, const SpectralTargets& to, PlacesBetween initial,
                          const MapParams& params) const;
   // What the device did since the last time, by its own clock; at most 64 stages.
   std::vector<ComputeStage> stages() const;

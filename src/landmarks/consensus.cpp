@@ -18,44 +18,53 @@ constexpr CarryParams quick{.map = {.first = 20, .last = 120, .step = 20}, .spre
 constexpr double alike_falloff = 30;       // a map counts exp(-falloff (residual - least residual))
 constexpr double outlier_distance = 0.03;  // of sqrt(area): marks farther from the consensus count less
 constexpr int rounds = 8;                  // of reweighting
+constexpr int median_rounds = 10;
 
 struct Opinion {
   Vector3 position;
   double weight;
-  int32_t triangle;
+  Vector3 normal;
 };
 
 struct Consensus {
   Vector3 position;
-  double spread;     // root mean squared distance of the opinions, outliers counting less
-  int32_t triangle;  // of the opinion nearest to all others
+  double spread;   // root mean squared distance of the opinions, outliers counting less
+  Vector3 normal;  // of the side that they are on
 };
 
-size_t medoid(const std::vector<Opinion>& opinions) {
-  std::vector<double> cost;
-  for (const auto& a : opinions) {
-    cost.push_back(0);
-    for (const auto& b : opinions) cost.back() += b.weight * (a.position - b.position).norm();
+// Opinions weighted by their distance from the place so far.
+template <class WeightAt>
+Consensus weighted_mean(const std::vector<Opinion>& opinions, const Vector3& place,
+                        const WeightAt& weight_at) {
+  Consensus result{Vector3::Zero(), 0, Vector3::Zero()};
+  double total = 0, square = 0;
+  for (const auto& opinion : opinions) {
+    const double away = (opinion.position - place).norm(), weight = opinion.weight * weight_at(away);
+    result.position += weight * opinion.position, result.normal += weight * opinion.normal;
+    total += weight, square += weight * away * away;
   }
-  return static_cast<size_t>(std::min_element(cost.begin(), cost.end()) - cost.begin());
+  result.position /= total, result.spread = std::sqrt(square / total);
+  return result;
 }
 
-// A robust mean: Cauchy weights round the place found so far, from the medoid on.
+// A robust mean: Cauchy weights round the place found so far, from the median on (E. Weiszfeld, 1937). No opinion is ever
+// picked, so the place moves no farther than they do.
 Consensus consensus_of(const std::vector<Opinion>& opinions) {
-  const Opinion& first = opinions[medoid(opinions)];
-  Consensus result{first.position, 0, first.triangle};
-  for (int round = 0; round < rounds; ++round) {
-    Vector3 sum = Vector3::Zero();
-    double total = 0, square = 0;
-    for (const auto& opinion : opinions) {
-      const double away = (opinion.position - result.position).norm();
-      const double weight = opinion.weight / (1 + std::pow(away / outlier_distance, 2));
-      sum += weight * opinion.position, total += weight, square += weight * away * away;
-    }
-    result.position = sum / total;
-    result.spread = std::sqrt(square / total);
-  }
+  Consensus result = weighted_mean(opinions, opinions[0].position, [](double) { return 1.0; });
+  for (int round = 0; round < median_rounds; ++round)
+    result = weighted_mean(opinions, result.position,
+                           [](double away) { return 1 / std::hypot(away, outlier_distance / 10); });
+  for (int round = 0; round < rounds; ++round)
+    result = weighted_mean(opinions, result.position,
+                           [](double away) { return 1 / (1 + std::pow(away / outlier_distance, 2)); });
   return result;
+}
+
+Vector3 normal_at(const TriangleMesh& surface, const MatrixX3& normals, const SurfacePoint& point) {
+  Vector3 sum = Vector3::Zero();
+  for (int c = 0; c < 3; ++c)
+    sum += point.barycentric[c] * normals.row(surface.triangles(point.triangle, c)).transpose().normalized();
+  return sum;
 }
 
 // How much the map of each training shape counts.
@@ -70,14 +79,16 @@ std::vector<double> weights_of(const std::vector<CarriedMarks>& carried) {
 // The landmark's own place, as one more shape of mean weight, and its marks on the training shapes. own_share: of that
 // weight, which counts.
 std::vector<Opinion> opinions_on(int32_t landmark, const SurfacePoint& own, double own_share,
-                                 const TriangleMesh& surface, const std::vector<CarriedMarks>& carried,
+                                 const TriangleMesh& surface, const MatrixX3& normals,
+                                 const std::vector<CarriedMarks>& carried,
                                  const std::vector<double>& weights) {
   const double mean =
       std::accumulate(weights.begin(), weights.end(), 0.0) / static_cast<double>(weights.size());
-  std::vector<Opinion> opinions = {{position_of(surface, own), own_share * mean, own.triangle}};
+  std::vector<Opinion> opinions = {
+      {position_of(surface, own), own_share * mean, normal_at(surface, normals, own)}};
   for (size_t s = 0; s < carried.size(); ++s)
-    if (const auto& point = carried[s].point[landmark])
-      opinions.push_back({position_of(surface, *point), weights[s], point->triangle});
+    for (const auto& [at, share] : carried[s].places[landmark])
+      opinions.push_back({at.position, weights[s] * share, at.normal.normalized()});
   return opinions;
 }
 
@@ -96,26 +107,21 @@ std::vector<ShapeMap> maps_from(const LandmarkModel& model, const SurfaceAnalysi
                     analysis.metric->distances(starts, execution), params, execution);
 }
 
-float mean_residual(const std::vector<CarriedMarks>& carried) {
-  float sum = 0;
-  for (const auto& shape : carried) sum += shape.residual / static_cast<float>(carried.size());
-  return sum;
-}
-
-float mean_bulge_agreement(const std::vector<CarriedMarks>& carried) {
-  float sum = 0;
-  for (const auto& shape : carried) sum += shape.bulge_agreement / static_cast<float>(carried.size());
-  return sum;
+MapFit fit_of(const LandmarkModel& model, const SurfaceAnalysis& analysis, const std::vector<ShapeMap>& maps) {
+  if (maps.empty()) return {std::numeric_limits<double>::infinity(), 0};
+  MapFit result;
+  for (const ShapeMap& one : maps) {
+    result.residual += one.map.residual / static_cast<double>(maps.size());
+    result.bulge_agreement += bulge_agreement(model.atlas[one.shape], one.map, analysis) / static_cast<double>(maps.size());
+  }
+  return result;
 }
 
 }  // namespace
 
 MapFit quick_map_fit(const LandmarkModel& model, const SurfaceAnalysis& analysis, const Placement& placement,
                      const Execution& execution) {
-  const auto carried =
-      carry_marks(model.atlas, maps_from(model, analysis, placement, quick, execution), analysis, execution);
-  if (carried.empty()) return {std::numeric_limits<double>::infinity(), 0};
-  return {mean_residual(carried), mean_bulge_agreement(carried)};
+  return fit_of(model, analysis, maps_from(model, analysis, placement, quick, execution));
 }
 
 void join_carried_marks(const LandmarkModel& model, const SurfaceAnalysis& analysis, Quality quality,
@@ -124,25 +130,26 @@ void join_carried_marks(const LandmarkModel& model, const SurfaceAnalysis& analy
   auto maps = maps_from(model, analysis, placement, best ? thorough : quick, execution);
   const auto carried = carry_marks(model.atlas, maps, analysis, execution);
   if (carried.empty()) return;
-  if (best) placement.map_residual = mean_residual(carried), placement.maps = std::move(maps);
-  placement.bulge_agreement = mean_bulge_agreement(carried);
+  const MapFit fit = fit_of(model, analysis, maps);
+  placement.bulge_agreement = static_cast<float>(fit.bulge_agreement);
+  if (best) placement.map_residual = static_cast<float>(fit.residual), placement.maps = std::move(maps);
   std::vector<int32_t> placed;
   for (size_t l = 0; l < placement.vertex.size(); ++l)
     if (placement.vertex[l] >= 0) placed.push_back(static_cast<int32_t>(l));
   const std::vector<double> weights = weights_of(carried);
   const TriangleMesh& surface = analysis.surface();
-  const MatrixX3 normals = face_normals(surface);
+  const MatrixX3 normals = area_normals(surface);
   std::vector<SurfaceQuery> queries;
   for (size_t p = 0; p < placed.size(); ++p) {
     Evidence& evidence = placement.evidence[placed[p]];
     const auto opinions = opinions_on(placed[p], placement.point[placed[p]], evidence.left_out ? 1e-3 : 1,
-                                      surface, carried, weights);
+                                      surface, normals, carried, weights);
     const Consensus consensus = consensus_of(opinions);
     if (best) {  // what a few shapes say differs from what confidence was learned on
       evidence.spread = static_cast<float>(consensus.spread);
       evidence.gap = static_cast<float>((consensus.position - opinions[0].position).norm());
     }
-    queries.push_back({consensus.position, normals.row(consensus.triangle).transpose()});
+    queries.push_back({consensus.position, consensus.normal});
   }
   const auto points = closest_points(surface, queries, 2 * analysis.operators.mean_edge);
   for (size_t p = 0; p < placed.size(); ++p) {

@@ -15,7 +15,7 @@ void join_carried_marks(const LandmarkModel& model, const SurfaceAnalysis& analy
 
 // How well the maps of a few training shapes, started from the placement, fit.
 struct MapFit {
-  double residual = 0, bulge_agreement = 0;  // means, see CarriedMarks
+  double residual = 0, bulge_agreement = 0;  // means over the maps
 };
 MapFit quick_map_fit(const LandmarkModel& model, const SurfaceAnalysis& analysis, const Placement& placement,
                      const Execution& execution);

@@ -36,20 +36,22 @@ std::vector<std::vector<int32_t>> triangles_round(const TriangleMesh& mesh) {
   return result;
 }
 
+EmbeddedSurface::Nearest EmbeddedSurface::nearest(int32_t triangle, const Eigen::VectorXf& place) const {
+  const Eigen::VectorXf a = place_(mesh_.triangles(triangle, 0)),
+                        ab = place_(mesh_.triangles(triangle, 1)) - a,
+                        ac = place_(mesh_.triangles(triangle, 2)) - a, ap = place - a;
+  const Vector3 weight =
+      closest_weights(ab.squaredNorm(), ab.dot(ac), ac.squaredNorm(), ab.dot(ap), ac.dot(ap));
+  return {{triangle, weight},
+          (ap - static_cast<float>(weight[1]) * ab - static_cast<float>(weight[2]) * ac).squaredNorm()};
+}
+
 SurfacePoint EmbeddedSurface::nearest(const std::vector<int32_t>& triangles,
                                       const Eigen::VectorXf& place) const {
-  SurfacePoint best;
-  float least = std::numeric_limits<float>::infinity();
-  for (const int32_t t : triangles) {
-    const Eigen::VectorXf a = place_(mesh_.triangles(t, 0)), ab = place_(mesh_.triangles(t, 1)) - a,
-                          ac = place_(mesh_.triangles(t, 2)) - a, ap = place - a;
-    const Vector3 weight =
-        closest_weights(ab.squaredNorm(), ab.dot(ac), ac.squaredNorm(), ab.dot(ap), ac.dot(ap));
-    const float away =
-        (ap - static_cast<float>(weight[1]) * ab - static_cast<float>(weight[2]) * ac).squaredNorm();
-    if (away < least) least = away, best = {t, weight};
-  }
-  return best;
+  Nearest best{{}, std::numeric_limits<float>::infinity()};
+  for (const int32_t t : triangles)
+    if (const Nearest next = nearest(t, place); next.squared < best.squared) best = next;
+  return best.point;
 }
 
 }  // namespace focal

@@ -16,6 +16,11 @@ class EmbeddedSurface {
   EmbeddedSurface(const TriangleMesh& mesh, std::function<Eigen::VectorXf(int32_t)> place)
       : mesh_(mesh), place_(std::move(place)) {}
 
+  struct Nearest {
+    SurfacePoint point;
+    float squared;  // distance
+  };
+  Nearest nearest(int32_t triangle, const Eigen::VectorXf& place) const;
   // Among the given triangles, at least one.
   SurfacePoint nearest(const std::vector<int32_t>& triangles, const Eigen::VectorXf& place) const;
 

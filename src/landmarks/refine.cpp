@@ -10,7 +10,8 @@
 namespace focal {
 namespace {
 
-constexpr float reach = 0.08f;  // of sqrt(area): the separation of the peaks, so the right one is within it
+constexpr float reach = 0.08f;   // of sqrt(area): the separation of the peaks, so the right one is within it
+constexpr float border = 0.02f;  // within it vertices count less and less, so that none comes in at once
 // Chosen by cross-validation on training splits of faust5k, teddy, ant, human07 and lion:
 constexpr double vote_weight = 10;  // against the mean squared deviation of the distances
 constexpr double deviation_clip = 8;
@@ -20,9 +21,13 @@ constexpr double temperature = 0.3;  // of the mean place
 // Cost of placing one landmark at each vertex near its present place.
 struct Region {
   std::vector<int32_t> vertex;
-  std::vector<double> cost;
-  int32_t best() const { return vertex[std::min_element(cost.begin(), cost.end()) - cost.begin()]; }
+  std::vector<double> cost, share;  // share: 1, down to 0 at the border
 };
+
+double smooth_step(double x) {
+  x = std::clamp(x, 0.0, 1.0);
+  return x * x * (3 - 2 * x);
+}
 
 // fields: placed landmarks x vertices.
 Region region_of(const ConstellationStatistics& statistics, const Placement& placement,
@@ -35,7 +40,11 @@ Region region_of(const ConstellationStatistics& statistics, const Placement& pla
   Region region;
   float largest = std::numeric_limits<float>::min();
   for (int32_t v = 0; v < fields.cols(); ++v)
-    if (fields(p, v) < reach) region.vertex.push_back(v), largest = std::max(largest, votes(v, l));
+    if (fields(p, v) < reach) {
+      const double share = smooth_step((reach - fields(p, v)) / border);
+      region.vertex.push_back(v), region.share.push_back(share);
+      largest = std::max(largest, static_cast<float>(share) * votes(v, l));
+    }
   for (const int32_t v : region.vertex) {
     double deviation = 0;
     for (const size_t o : others) {
@@ -49,21 +58,31 @@ Region region_of(const ConstellationStatistics& statistics, const Placement& pla
   return region;
 }
 
-// The mean of the region's places, each as likely as exp(-cost / temperature), on the surface; the side of the best one.
-SurfacePoint mean_place(const SurfaceAnalysis& analysis, const MatrixX3& normals, const Region& region) {
+// The mean of the region's places, each as likely as exp(-cost / temperature), on the surface; on the side that most of
+// them are on. A thin part has two: a place counts by how far it faces the same way.
+SurfacePoint mean_place(const SurfaceAnalysis& analysis, const MatrixX3& normals, const Region& region,
+                        const SurfacePoint& before) {
+  constexpr double facing = 0.2;  // cosine of the angle from which a place counts in full
   const TriangleMesh& mesh = analysis.surface();
-  const int32_t best = region.best();
-  const Eigen::RowVector3d side = normals.row(best);
+  if (region.vertex.empty()) return before;  // all vertices of a large triangle are far
   const double lowest = *std::min_element(region.cost.begin(), region.cost.end());
+  std::vector<double> weight;
+  Eigen::RowVector3d side = Eigen::RowVector3d::Zero();
+  for (size_t i = 0; i < region.vertex.size(); ++i) {
+    const int32_t v = region.vertex[i];
+    weight.push_back(region.share[i] * analysis.operators.mass[v] *
+                     std::exp((lowest - region.cost[i]) / temperature));
+    side += weight[i] * weight[i] * normals.row(v);
+  }
+  side.normalize();
   Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
   double total = 0;
   for (size_t i = 0; i < region.vertex.size(); ++i) {
     const int32_t v = region.vertex[i];
-    if (v != best && normals.row(v).dot(side) <= 0)
-      continue;  // a side may face nowhere, as where sheets meet
-    const double weight = analysis.operators.mass[v] * std::exp((lowest - region.cost[i]) / temperature);
-    sum += weight * mesh.positions.row(v), total += weight;
+    const double w = weight[i] * (1e-6 + smooth_step(normals.row(v).dot(side) / facing));
+    sum += w * mesh.positions.row(v), total += w;
   }
+  if (!(total > 0)) return before;
   const SurfaceQuery query{(sum / total).transpose(), side.transpose()};
   return closest_points(mesh, std::span(&query, 1), 2 * analysis.operators.mean_edge)[0];
 }
@@ -76,21 +95,27 @@ void refine_placement(const ConstellationStatistics& statistics, const SurfaceAn
   for (int32_t l = 0; l < static_cast<int32_t>(placement.vertex.size()); ++l)
     if (placement.vertex[l] >= 0) placed.push_back(l), vertex.push_back(placement.vertex[l]);
   placement.point.assign(placement.vertex.size(), {});
-  const auto at_vertices = points_at(analysis.surface(), vertex);
-  for (size_t p = 0; p < placed.size(); ++p)
-    placement.point[placed[p]] = placement.is_fixed(placed[p]) ? *placement.fixed[placed[p]] : at_vertices[p];
+  auto points = points_at(analysis.surface(), vertex);
+  for (size_t p = 0; p < placed.size(); ++p) {
+    if (placement.is_fixed(placed[p])) points[p] = *placement.fixed[placed[p]];
+    placement.point[placed[p]] = points[p];
+  }
   if (placed.size() < 2) return;
-  const MatrixX3 normals = area_normals(analysis.surface());
+  MatrixX3 normals = area_normals(analysis.surface());
+  for (Eigen::Index v = 0; v < normals.rows(); ++v) normals.row(v).normalize();
   for (int32_t round = 0; round < rounds; ++round) {
-    const RowMatrixf fields = analysis.metric->distances(vertex, execution);
+    const RowMatrixf fields = analysis.metric->distances(points, execution);
     parallel_for(execution, static_cast<int64_t>(placed.size()), [&](int64_t p) {
       if (placement.is_fixed(placed[p])) return;
-      const Region region = region_of(statistics, placement, fields, placed, static_cast<size_t>(p));
-      vertex[p] = region.best();
-      if (round + 1 == rounds) placement.point[placed[p]] = mean_place(analysis, normals, region);
+      points[p] =
+          mean_place(analysis, normals,
+                     region_of(statistics, placement, fields, placed, static_cast<size_t>(p)), points[p]);
     });
   }
-  for (size_t p = 0; p < placed.size(); ++p) placement.vertex[placed[p]] = vertex[p];
+  for (size_t p = 0; p < placed.size(); ++p) {
+    placement.point[placed[p]] = points[p];
+    placement.vertex[placed[p]] = nearest_corner(analysis.surface(), points[p]);
+  }
 }
 
 }  // namespace focal

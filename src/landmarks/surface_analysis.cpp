@@ -50,8 +50,7 @@ EigenParams eigen_params(const AnalysisParams& params) {
   EigenParams eigen;
   eigen.count = params.eigenpair_count;
   eigen.method = EigenMethod::chebyshev;
-  eigen.tolerance =
-      1e-7;  // 1e-5 serves the signatures; maps turn what is left of the error into whole vertices
+  eigen.tolerance = 1e-7;  // 1e-5 serves the signatures; maps magnify what is left of the error
   return eigen;
 }
 

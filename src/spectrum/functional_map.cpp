@@ -14,6 +14,7 @@ namespace {
 
 constexpr int lanes = 32;
 constexpr int64_t tile = 4;  // of the block kernels: rows come in fours
+constexpr int between = PlacesBetween::vertices;
 
 int64_t round_up(int64_t n, int64_t to) { return (n + to - 1) / to * to; }
 
@@ -38,24 +39,54 @@ class RowBlocks {
   AlignedArray<float> data_;
 };
 
+constexpr float worst = -std::numeric_limits<float>::infinity();
+
+// The targets nearest to a point, by score, best first and the first of equal ones. The point lies between all but the last
+// of them: that one's score is where weights end, so that nothing jumps when another target takes its place.
+template <int kept>
+struct NearestFew {
+  float score[kept];
+  int32_t target[kept];
+
+  void add(float next, int32_t number) {
+    int at = kept - 1;
+    for (; at > 0 && next > score[at - 1]; --at) score[at] = score[at - 1], target[at] = target[at - 1];
+    score[at] = next, target[at] = number;
+  }
+  // Of the first kept - 1; they sum to 1.
+  void weigh(float* weight) const {
+    int last = kept - 1;
+    while (last > 0 && score[last] == worst) --last;
+    float sum = 0;
+    for (int i = 0; i < kept - 1; ++i) {
+      const float ahead = i < last ? score[i] - score[last] : 0;
+      sum += weight[i] = ahead * ahead;
+    }
+    for (int i = 0; i < kept - 1; ++i) weight[i] = sum > 0 ? weight[i] / sum : static_cast<float>(i == 0);
+  }
+};
+
 FOCAL_MULTIVERSION(
-    void keep_best(const float* score, int32_t block, int64_t rows, float* best, int32_t* best_block),
-    for (int64_t i = 0; i < rows * lanes; ++i) {
-      const bool better = score[i] > best[i];
-      best[i] = better ? score[i] : best[i];
-      best_block[i] = better ? block : best_block[i];
+    void mark_better(const float* score, int64_t rows, const float* least, int32_t* better),
+    for (int64_t r = 0; r < rows; ++r) {
+      int32_t any = 0;
+      for (int j = 0; j < lanes; ++j) any |= score[r * lanes + j] > least[r] ? 1 : 0;
+      better[r] = any;
     })
 
 // Nearest targets by blocks: score = place . target - |target|^2 / 2 is largest where the distance is smallest.
+template <int kept>
 class NearestSearch {
  public:
-  explicit NearestSearch(int64_t places)
+  NearestSearch(int64_t places, int32_t targets)
       : rows_(places),
         padded_(round_up(places, tile)),
+        targets_(targets),
         score_(std::min(chunk, padded_) * lanes),
-        best_(padded_ * lanes),
-        best_block_(padded_ * lanes) {
-    std::fill_n(best_.data(), best_.size(), -std::numeric_limits<float>::infinity());
+        least_(padded_),
+        found_(places) {
+    std::fill_n(least_.data(), least_.size(), worst);
+    for (auto& few : found_) std::fill_n(few.score, kept, worst), std::fill_n(few.target, kept, 0);
   }
 
   // places: padded rows; target: k x 32.
@@ -69,29 +100,32 @@ class NearestSearch {
         for (int j = 0; j < lanes; ++j) score_.data()[r * lanes + j] = -half[j] / 2;
       multiply_add({places.data + begin * places.row_step, places.row_step, places.inner_step}, rows, k,
                    target, score_.data());
-      keep_best(score_.data(), block, rows, best_.data() + begin * lanes, best_block_.data() + begin * lanes);
+      keep_better(block, begin, std::min(rows, rows_ - begin));
     }
   }
 
-  // Numbers of the nearest targets; `last` is the largest there is.
-  std::vector<int32_t> result(int32_t last) const {
-    std::vector<int32_t> nearest(rows_);
-    for (int64_t r = 0; r < rows_; ++r) {
-      float best = -std::numeric_limits<float>::infinity();
-      for (int j = 0; j < lanes; ++j) {
-        const int32_t target = std::min(best_block_.data()[r * lanes + j] * lanes + j, last);
-        const float score = best_.data()[r * lanes + j];
-        if (score > best || (score == best && target < nearest[r])) best = score, nearest[r] = target;
-      }
-    }
-    return nearest;
-  }
+  const std::vector<NearestFew<kept>>& result() const { return found_; }
 
  private:
+  void keep_better(int32_t block, int64_t begin, int64_t rows) {
+    int32_t better[chunk];
+    mark_better(score_.data(), rows, least_.data() + begin, better);
+    const int32_t first = block * lanes, count = std::min(lanes, targets_ - first);
+    for (int64_t r = 0; r < rows; ++r) {
+      if (!better[r]) continue;
+      NearestFew<kept>& few = found_[begin + r];
+      for (int j = 0; j < count; ++j)
+        if (score_.data()[r * lanes + j] > few.score[kept - 1])
+          few.add(score_.data()[r * lanes + j], first + j);
+      least_.data()[begin + r] = few.score[kept - 1];
+    }
+  }
+
   static constexpr int64_t chunk = 256;
   int64_t rows_, padded_;
-  AlignedArray<float> score_, best_;
-  AlignedArray<int32_t> best_block_;
+  int32_t targets_;
+  AlignedArray<float> score_, least_;
+  std::vector<NearestFew<kept>> found_;
 };
 
 RowMatrixf padded_rows(const Eigen::Ref<const RowMatrixf, 0, Eigen::OuterStride<>>& rows) {
@@ -100,10 +134,26 @@ RowMatrixf padded_rows(const Eigen::Ref<const RowMatrixf, 0, Eigen::OuterStride<
   return result;
 }
 
+void place_between(const NearestFew<between + 1>& found, int64_t at, PlacesBetween& places) {
+  std::copy_n(found.target, between, &places.vertex[at * between]);
+  found.weigh(&places.weight[at * between]);
+}
+
+template <int kept>
+std::vector<NearestFew<kept>> few_nearest_rows(const RowMatrixf& places, const RowMatrixf& targets) {
+  const RowMatrixf padded = padded_rows(places);
+  const RowBlocks blocks(targets.rows(), targets.cols(), [&](int64_t i) { return targets.row(i).data(); });
+  NearestSearch<kept> search(places.rows(), static_cast<int32_t>(targets.rows()));
+  for (int64_t b = 0; b < blocks.blocks(); ++b)
+    search.look_at({padded.data(), padded.cols(), 1}, padded.cols(), blocks.block(b),
+                   static_cast<int32_t>(b));
+  return search.result();
+}
+
 // One map in the making.
 class ZoomOut {
  public:
-  ZoomOut(const SpectralSamples& from, const SpectralTargets& to, std::vector<int32_t> initial,
+  ZoomOut(const SpectralSamples& from, const SpectralTargets& to, PlacesBetween initial,
           const MapParams& params)
       : from_(from),
         to_(to),
@@ -117,7 +167,8 @@ class ZoomOut {
     const auto known = from.Phi.rows();
     weighted_.topRows(known) = from.weight.asDiagonal() * points_.topRows(known);
     gram_ = Eigen::LLT<Eigen::MatrixXf>(points_.transpose() * weighted_).matrixL();
-    map_.image = std::move(initial);
+    map_.places = std::move(initial);
+    map_.image.resize(from.Phi.rows());
   }
 
   FunctionalMap run(const Execution& execution) {
@@ -139,7 +190,8 @@ class ZoomOut {
   }
 
  private:
-  // C = (Phi^T W Phi)^-1 Phi^T W Phi_to(images): the least-squares fit.
+  // C = (Phi^T W Phi)^-1 Phi^T W Phi_to(images): the least-squares fit. Images lie between vertices: were each a whole one, a
+  // rounding could decide between two, the fit would jump, and more points with it from round to round.
   void fit(int32_t k) {
     const int64_t rows = points_.rows(), known = from_.Phi.rows();
     map_.C.resize(k, k);
@@ -147,8 +199,12 @@ class ZoomOut {
     for (int32_t begin = 0; begin < k; begin += lanes) {
       const int32_t count = std::min(lanes, k - begin);
       std::fill_n(images.data(), images.size(), 0.0f);
-      for (int64_t y = 0; y < known; ++y)
-        std::copy_n(to_.Phi.row(map_.image[y]).data() + begin, count, images.data() + y * lanes);
+      for (int64_t i = 0; i < known * between; ++i) {
+        const float weight = map_.places.weight[i];
+        const float* from = to_.Phi.row(map_.places.vertex[i]).data() + begin;
+        float* to = images.data() + i / between * lanes;
+        for (int32_t c = 0; c < count; ++c) to[c] += weight * from[c];
+      }
       std::fill_n(product.data(), product.size(), 0.0f);
       multiply_add({weighted_.data(), 1, weighted_.cols()}, k, rows, images.data(), product.data());
       map_.C.middleCols(begin, count) =
@@ -161,19 +217,29 @@ class ZoomOut {
   }
 
   void assign_spread(int32_t k) {
-    map_.image = nearest(spread_, static_cast<int32_t>(to_.spread.size()), k, 0);
-    for (int32_t& i : map_.image) i = to_.spread[i];
+    take(nearest(spread_, static_cast<int32_t>(to_.spread.size()), k, 0), 0, &to_.spread);
   }
 
   void assign_all(int32_t k, int64_t first) {
     const RowBlocks all(to_.Phi.rows(), k, [&](int64_t i) { return to_.Phi.row(i).data(); });
-    const auto images = nearest(all, static_cast<int32_t>(to_.Phi.rows()), k, first);
-    std::copy(images.begin(), images.end(), map_.image.begin() + first);
+    take(nearest(all, static_cast<int32_t>(to_.Phi.rows()), k, first), first, nullptr);
   }
 
-  // Of each point from `first` on, the number of the target that is nearest in the embedding of the points.
-  std::vector<int32_t> nearest(const RowBlocks& targets, int32_t count, int32_t k, int64_t first) const {
-    NearestSearch search(from_.Phi.rows() - first);
+  // numbers: of the targets, or null.
+  void take(const std::vector<NearestFew<between + 1>>& found, int64_t first,
+            const std::vector<int32_t>* numbers) {
+    for (size_t y = 0; y < found.size(); ++y) {
+      place_between(found[y], first + static_cast<int64_t>(y), map_.places);
+      int32_t* vertex = &map_.places.vertex[(first + y) * between];
+      for (int i = 0; numbers && i < between; ++i) vertex[i] = (*numbers)[vertex[i]];
+      map_.image[first + y] = vertex[0];
+    }
+  }
+
+  // Of each point from `first` on, the targets that are nearest in the embedding of the points.
+  std::vector<NearestFew<between + 1>> nearest(const RowBlocks& targets, int32_t count, int32_t k,
+                                               int64_t first) const {
+    NearestSearch<between + 1> search(from_.Phi.rows() - first, count);
     const RowMatrixf C = map_.C;
     AlignedArray<float> moved(static_cast<size_t>(k) * lanes);
     for (int64_t b = 0; b < targets.blocks(); ++b) {
@@ -182,7 +248,7 @@ class ZoomOut {
       search.look_at({points_.row(first).data(), points_.cols(), 1}, k, moved.data(),
                      static_cast<int32_t>(b));
     }
-    return search.result(count - 1);
+    return search.result();
   }
 
   void measure() {
@@ -208,19 +274,23 @@ class ZoomOut {
 
 }  // namespace
 
-FunctionalMap zoom_out(const SpectralSamples& from, const SpectralTargets& to, std::vector<int32_t> initial,
+FunctionalMap zoom_out(const SpectralSamples& from, const SpectralTargets& to, PlacesBetween initial,
                        const MapParams& params, const Execution& execution) {
   return ZoomOut(from, to, std::move(initial), params).run(execution);
 }
 
 std::vector<int32_t> nearest_rows(const RowMatrixf& places, const RowMatrixf& targets) {
-  const RowMatrixf padded = padded_rows(places);
-  const RowBlocks blocks(targets.rows(), targets.cols(), [&](int64_t i) { return targets.row(i).data(); });
-  NearestSearch search(places.rows());
-  for (int64_t b = 0; b < blocks.blocks(); ++b)
-    search.look_at({padded.data(), padded.cols(), 1}, padded.cols(), blocks.block(b),
-                   static_cast<int32_t>(b));
-  return search.result(static_cast<int32_t>(targets.rows()) - 1);
+  std::vector<int32_t> numbers;
+  for (const auto& nearest : few_nearest_rows<1>(places, targets)) numbers.push_back(nearest.target[0]);
+  return numbers;
+}
+
+PlacesBetween nearest_between(const RowMatrixf& places, const RowMatrixf& targets) {
+  PlacesBetween result;
+  result.vertex.resize(places.rows() * between), result.weight.resize(result.vertex.size());
+  const auto found = few_nearest_rows<between + 1>(places, targets);
+  for (size_t i = 0; i < found.size(); ++i) place_between(found[i], static_cast<int64_t>(i), result);
+  return result;
 }
 
 std::vector<int32_t> farthest_points(const MatrixX3& positions, int32_t count, int32_t first) {

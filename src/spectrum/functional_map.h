@@ -24,6 +24,21 @@ struct SpectralTargets {
   std::vector<int32_t> spread;
 };
 
+// Where points lie on that surface: each between a few vertices, the nearest first, with weights that sum to 1. A whole vertex
+// would be one decision a point, which a rounding can turn.
+struct PlacesBetween {
+  static constexpr int32_t vertices = 3;
+  std::vector<int32_t> vertex;  // points x vertices
+  std::vector<float> weight;    // the same
+
+  PlacesBetween() = default;
+  PlacesBetween(const std::vector<int32_t>& whole)  // each at one
+      : vertex(whole.size() * vertices), weight(whole.size() * vertices) {
+    for (size_t i = 0; i < vertex.size(); ++i)
+      vertex[i] = whole[i / vertices], weight[i] = i % vertices == 0 ? 1.0F : 0.0F;
+  }
+};
+
 struct MapParams {
   int32_t first = 20, last = 120, step = 20;  // eigenfunctions used, from round to round; multiples of 4
   // In the last round, points from this one on lie at the nearest of all targets, those before it still at spread ones.
@@ -35,16 +50,20 @@ struct MapParams {
 struct FunctionalMap {
   Eigen::MatrixXf C;           // k x k
   std::vector<int32_t> image;  // per point: the nearest vertex of the targets
+  PlacesBetween places;        // the same, between the nearest ones
   float residual =
       0;  // how far the points lie from their images in the embedding: root mean square, of their size
 };
 
-// Refines `initial`, the vertex of `to` where each point lies at first. Both have at least 4 eigenfunctions.
-FunctionalMap zoom_out(const SpectralSamples& from, const SpectralTargets& to, std::vector<int32_t> initial,
+// Refines `initial`, where each point lies at first. Both have at least 4 eigenfunctions.
+FunctionalMap zoom_out(const SpectralSamples& from, const SpectralTargets& to, PlacesBetween initial,
                        const MapParams& params, const Execution& execution = {});
 
 // Per row of places the nearest row of targets; the first of equal ones.
 std::vector<int32_t> nearest_rows(const RowMatrixf& places, const RowMatrixf& targets);
+
+// The same, between the nearest rows.
+PlacesBetween nearest_between(const RowMatrixf& places, const RowMatrixf& targets);
 
 // `count` points, each the one farthest from those before it, starting with `first`.
 std::vector<int32_t> farthest_points(const MatrixX3& positions, int32_t count, int32_t first = 0);

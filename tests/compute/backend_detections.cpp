@@ -84,7 +84,6 @@ void check_same_bits(const Detection& a, const Detection& b) {
   CHECK(a.votes == b.votes);
 }
 
-// The maps of the training shapes end in whole vertices: where a rounding decides, one of a dozen opinions moves by an edge.
 void check_agrees(const std::shared_ptr<const LandmarkModel>& model_of) {
   double worst = 0;
   const bool paper = model_of->params.preset == Preset::paper;

@@ -199,9 +199,8 @@ TEST_CASE("the same bits for one, two and four threads, and from run to run") {
   CHECK(same(reference, detect(small_model(), mesh, {}, threads(1))));
 }
 
-// Quality best decides by nearest neighbours among thousands of vertices and by where a spectrum is cut. Rounding tips near
-// ties and turns twin eigenfunctions of the two sides, so its places sway: by hundredths of an edge between instruction
-// sets, by up to half an edge when the mesh is moved. Those of quality interactive do not.
+// A spectrum is cut somewhere, and rounding turns twin eigenfunctions of the two sides there; decimation takes edges in an
+// order. So places sway where the mesh is moved; see continuity_test for what does not move them.
 DetectParams with_quality(Quality quality) {
   DetectParams params;
   params.quality = quality;

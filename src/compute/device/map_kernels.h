@@ -16,6 +16,22 @@ struct GatherRow {  // the first columns of some rows
   }
 };
 
+struct GatherBetween {  // the first columns of places between rows
+  static constexpr int32_t between = 3;
+  const float* from;
+  const int32_t* row;   // places x between
+  const float* weight;  // the same
+  float* to;
+  int32_t stride, columns;
+  FOCAL_HOST_DEVICE void operator()(int64_t at) const {
+    const int64_t first = at / columns * between;
+    float sum = 0;
+    for (int32_t i = 0; i < between; ++i)
+      sum += weight[first + i] * from[static_cast<int64_t>(row[first + i]) * stride + at % columns];
+    to[at] = sum;
+  }
+};
+
 struct HalfSquare {  // of the length of a row
   const float* rows;
   float* half;
@@ -27,36 +43,69 @@ struct HalfSquare {  // of the length of a row
   }
 };
 
-// The best target of each point among a chunk: place . target - |target|^2 / 2 is largest where the distance is smallest; the
+// The best targets of a point so far, as NearestFew in functional_map.cpp.
+struct NearestFew {
+  static constexpr int32_t kept = GatherBetween::between + 1;
+  static constexpr float worst = -3.402823466e38F;
+  float score[kept];
+  int32_t target[kept];
+
+  FOCAL_HOST_DEVICE explicit NearestFew(int32_t first) {  // stands in where there are no numbers
+    for (int32_t i = 0; i < kept; ++i) score[i] = worst, target[i] = first;
+  }
+  FOCAL_HOST_DEVICE void add(float next, int32_t number) {
+    if (!(next > score[kept - 1])) return;
+    int32_t at = kept - 1;
+    for (; at > 0 && next > score[at - 1]; --at) score[at] = score[at - 1], target[at] = target[at - 1];
+    score[at] = next, target[at] = number;
+  }
+  FOCAL_HOST_DEVICE void weigh(float* weight) const {
+    int32_t last = kept - 1;
+    while (last > 0 && score[last] == worst) --last;
+    float sum = 0;
+    for (int32_t i = 0; i < kept - 1; ++i) {
+      const float ahead = i < last ? score[i] - score[last] : 0;
+      sum += weight[i] = ahead * ahead;
+    }
+    for (int32_t i = 0; i < kept - 1; ++i) weight[i] = sum > 0 ? weight[i] / sum : static_cast<float>(i == 0);
+  }
+};
+
+// The best targets of each point among a chunk: place . target - |target|^2 / 2 is largest where the distance is smallest; the
 // first of equal ones. Products: targets x points.
 struct NearestInChunk {
   static constexpr int32_t length = 64;
   const float *product, *half;
-  float* best;  // chunks x points
+  float* best;  // chunks x kept x points
   int32_t* target;
   int32_t points, targets;
   FOCAL_HOST_DEVICE void operator()(int64_t at) const {
     const int64_t chunk = at / points, p = at % points;
-    int64_t found = chunk * length;
-    float most = product[found * points + p] - half[found];
-    for (int64_t t = found + 1; t < targets && t < (chunk + 1) * length; ++t) {
-      const float score = product[t * points + p] - half[t];
-      if (score > most) most = score, found = t;
+    NearestFew few(static_cast<int32_t>(chunk * length));
+    for (int64_t t = chunk * length; t < targets && t < (chunk + 1) * length; ++t)
+      few.add(product[t * points + p] - half[t], static_cast<int32_t>(t));
+    for (int64_t i = 0; i < NearestFew::kept; ++i) {
+      const int64_t to = (chunk * NearestFew::kept + i) * points + p;
+      best[to] = few.score[i], target[to] = few.target[i];
     }
-    best[at] = most, target[at] = static_cast<int32_t>(found);
   }
 };
 
 struct NearestOfAll {
   const float* best;
   const int32_t *target, *spread;  // spread: numbers of the targets, or null
-  int32_t* image;
+  int32_t *image, *vertex;         // vertex, weight: what each point lies between, as in GatherBetween
+  float* weight;
   int32_t points, chunks;
   FOCAL_HOST_DEVICE void operator()(int64_t p) const {
-    int64_t found = p;
-    for (int64_t at = p + points; at < static_cast<int64_t>(chunks) * points; at += points)
-      if (best[at] > best[found]) found = at;
-    image[p] = spread ? spread[target[found]] : target[found];
+    NearestFew few(0);
+    for (int64_t at = p; at < static_cast<int64_t>(chunks) * NearestFew::kept * points; at += points)
+      few.add(best[at], target[at]);
+    constexpr int32_t between = GatherBetween::between;
+    few.weigh(weight + p * between);
+    for (int32_t i = 0; i < between; ++i)
+      vertex[p * between + i] = spread ? spread[few.target[i]] : few.target[i];
+    image[p] = vertex[p * between];
   }
 };
 

@@ -188,9 +188,9 @@ class TableOf {
                                   ComputeFailure* failure) {
     return on_surface(surface, failure, [&](auto& on) { isoline_votes(on, *isolines, out); });
   }
-  static int32_t zoom_out_of(void* surface, const ComputeMap* map, int32_t* image, float* C, double* error,
-                             ComputeFailure* failure) {
-    return on_surface(surface, failure, [&](auto& on) { zoom_out(on, *map, image, C, error); });
+  static int32_t zoom_out_of(void* surface, const ComputeMap* map, int32_t* image, float* weight, float* C,
+                             double* error, ComputeFailure* failure) {
+    return on_surface(surface, failure, [&](auto& on) { zoom_out(on, *map, image, weight, C, error); });
   }
   static int32_t stages_of(void* surface, ComputeStage* out, int32_t room) {
     int32_t count = 0;
