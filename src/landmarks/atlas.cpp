@@ -221,10 +221,10 @@ AtlasShape remember_shape(const SurfaceAnalysis& analysis,
   return shape;
 }
 
-std::vector<ShapeMap> map_shapes(const std::vector<AtlasShape>& atlas, std::span<const int32_t> among, float reach,
-                                 const SurfaceAnalysis& analysis, const std::vector<int32_t>& landmark,
-                                 const RowMatrixf& fields, const CarryParams& params,
-                                 const Execution& execution) {
+std::vector<ShapeMap> map_shapes(const std::vector<AtlasShape>& atlas, std::span<const int32_t> among,
+                                 float reach, const SurfaceAnalysis& analysis,
+                                 const std::vector<int32_t>& landmark, const RowMatrixf& fields,
+                                 const CarryParams& params, const Execution& execution) {
   const SpectralTargets targets = spectral_targets(analysis, params.spread);
   std::vector<Start> starts(among.size());
   parallel_for(execution, static_cast<int64_t>(among.size()), [&](int64_t s) {
@@ -242,8 +242,8 @@ std::vector<ShapeMap> map_shapes(const std::vector<AtlasShape>& atlas, std::span
   return result;
 }
 
-void find_exact_images(std::vector<ShapeMap>& maps, const std::vector<AtlasShape>& atlas, const SurfaceAnalysis& analysis,
-                       const Execution& execution) {
+void find_exact_images(std::vector<ShapeMap>& maps, const std::vector<AtlasShape>& atlas,
+                       const SurfaceAnalysis& analysis, const Execution& execution) {
   parallel_for(execution, static_cast<int64_t>(maps.size()), [&](int64_t m) {
     FunctionalMap& map = maps[m].map;
     const AtlasShape& shape = atlas[maps[m].shape];

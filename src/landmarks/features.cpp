@@ -1,5 +1,8 @@
 #include "landmarks/features.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "descriptors/bulge.h"
 #include "descriptors/descriptor.h"
 
@@ -8,7 +11,7 @@ namespace {
 
 // A split looks at a few components drawn from all: those that few numbers hold come several times, to be drawn as often as they
 // deserve.
-constexpr int32_t bulge_copies = 2, frame_copies = 3, frame_components = 6;
+constexpr int32_t bulge_copies = 2, frame_copies = 3, frame_components = 6, upright_components = 4;
 constexpr auto bulge_components = static_cast<int32_t>(bulge_radii.size());
 
 }  // namespace
@@ -20,23 +23,64 @@ int32_t feature_count(const TrainParams& params) {
          (params.oriented ? frame_copies * frame_components : 0);
 }
 
-RowMatrixf features_of(const SurfaceAnalysis& analysis, int32_t count, const TrainParams& params, const Matrix3& frame) {
+RowMatrixf features_of(const SurfaceAnalysis& analysis, int32_t count, const TrainParams& params,
+                       const Matrix3& frame) {
+  if (!params.bulge && !params.oriented) return analysis.descriptors.topRows(count);
   RowMatrixf result(count, feature_count(params));
+  Eigen::Index at = params.bulge ? invariant_feature_count(params) : analysis.descriptors.cols();
+  result.leftCols(at) =
+      params.bulge ? invariant_features(analysis, count) : RowMatrixf(analysis.descriptors.topRows(count));
+  if (!params.oriented) return result;
+  RowMatrixf placed = placed_features(analysis, count);
+  const Eigen::Matrix3f turn = frame.cast<float>();
+  placed.leftCols<3>() *= turn.transpose(), placed.rightCols<3>() *= turn.transpose();
+  for (int32_t copy = 0; copy < frame_copies; ++copy, at += frame_components)
+    result.middleCols<frame_components>(at) = placed;
+  return result;
+}
+
+int32_t invariant_feature_count(const TrainParams& params) {
+  return descriptor_kinds()[params.descriptor].dimension + bulge_copies * bulge_components;
+}
+
+RowMatrixf invariant_features(const SurfaceAnalysis& analysis, int32_t count) {
   const Eigen::Index signature = analysis.descriptors.cols();
+  RowMatrixf result(count, signature + bulge_copies * bulge_components);
   result.leftCols(signature) = analysis.descriptors.topRows(count);
-  if (params.preset == Preset::paper) return result;
-  const Vector3 centre = analysis.surface().positions.transpose() * analysis.operators.mass / analysis.operators.mass.sum();
+  for (int32_t s = 0; s < count; ++s)
+    for (int32_t copy = 0; copy < bulge_copies; ++copy)
+      result.row(s).segment<bulge_components>(signature + copy * bulge_components) =
+          analysis.bulge.row(analysis.samples[s]);
+  return result;
+}
+
+int32_t upright_feature_count(const TrainParams& params) {
+  return invariant_feature_count(params) + frame_copies * upright_components;
+}
+
+RowMatrixf upright_features(const SurfaceAnalysis& analysis, const RowMatrixf& placed) {
+  const auto count = static_cast<int32_t>(placed.rows());
+  const RowMatrixf invariant = invariant_features(analysis, count);
+  RowMatrixf result(count, invariant.cols() + frame_copies * upright_components);
+  result.leftCols(invariant.cols()) = invariant;
+  for (int32_t s = 0; s < count; ++s)
+    for (int32_t copy = 0; copy < frame_copies; ++copy)
+      result.row(s).segment<upright_components>(invariant.cols() + copy * upright_components) << placed(s, 1),
+          placed(s, 4), std::hypot(placed(s, 0), placed(s, 2)),
+          (placed(s, 0) * placed(s, 3) + placed(s, 2) * placed(s, 5)) /
+              std::max(std::hypot(placed(s, 0), placed(s, 2)), 1e-6f);
+  return result;
+}
+
+RowMatrixf placed_features(const SurfaceAnalysis& analysis, int32_t count) {
+  const MatrixX3& positions = analysis.surface().positions;
+  const Eigen::RowVector3d centre =
+      (positions.transpose() * analysis.operators.mass / analysis.operators.mass.sum()).transpose();
+  RowMatrixf result(count, frame_components);
   for (int32_t s = 0; s < count; ++s) {
     const int32_t v = analysis.samples[s];
-    Eigen::Index at = signature;
-    for (int32_t copy = 0; params.bulge && copy < bulge_copies; ++copy, at += bulge_components)
-      result.row(s).segment<bulge_components>(at) = analysis.bulge.row(v);
-    if (!params.oriented) continue;
-    Eigen::Matrix<float, 1, frame_components> placed;
-    placed.head<3>() = (frame * (analysis.surface().positions.row(v).transpose() - centre)).cast<float>();
-    placed.tail<3>() = (frame * analysis.normals.row(v).transpose()).cast<float>();
-    for (int32_t copy = 0; copy < frame_copies; ++copy, at += frame_components)
-      result.row(s).segment<frame_components>(at) = placed;
+    result.row(s).head<3>() = (positions.row(v) - centre).cast<float>();
+    result.row(s).tail<3>() = analysis.normals.row(v).cast<float>();
   }
   return result;
 }

@@ -132,8 +132,8 @@ void read_forests(ByteReader in, LandmarkModel& model) {
   const LeafKind leaves = default_preset ? LeafKind::samples : LeafKind::means;
   const auto samples = static_cast<int32_t>(model.targets.rows());
   for (int32_t f = 0; f < count; ++f)
-    model.forests.push_back(read_forest(in, leaves, model.params.tree_count, samples,
-                                        feature_count(model.params)));
+    model.forests.push_back(
+        read_forest(in, leaves, model.params.tree_count, samples, feature_count(model.params)));
   in.expect_end();
 }
 
@@ -321,12 +321,32 @@ void read_skeleton(ByteReader in, LandmarkModel& model) {
 
 // --- FEAT: what the forest knows of a point beside its signature
 
+constexpr float place_steps = 4000, farthest_place = 8;
+
 void write_features(const LandmarkModel& model, ByteWriter& out) {
   out.u8(model.params.bulge), out.u8(model.params.oriented);
+  if (!model.params.oriented) return;
+  out.u32(static_cast<uint32_t>(model.facing_targets.rows()));
+  for (const float value : model.facing_targets.reshaped<Eigen::RowMajor>())
+    out.u16(static_cast<uint16_t>(
+        std::lround((std::clamp(value, -farthest_place, farthest_place) + farthest_place) * place_steps)));
+  out.u32(static_cast<uint32_t>(model.facing.trees.size()));
+  for (const RegressionForest* forest : {&model.rising, &model.facing})
+    write_forest(*forest, static_cast<int32_t>(model.facing_targets.rows()), out);
 }
 
 void read_features(ByteReader in, LandmarkModel& model) {
   model.params.bulge = in.u8("bulge") != 0, model.params.oriented = in.u8("orientation") != 0;
+  if (model.params.oriented) {
+    constexpr int32_t columns = 6;
+    const int32_t rows = in.count("sample count", columns * 16, 1);
+    model.facing_targets.resize(rows, columns);
+    for (float& value : model.facing_targets.reshaped<Eigen::RowMajor>())
+      value = static_cast<float>(in.u16("place")) / place_steps - farthest_place;
+    const int32_t trees = in.i32("tree count", 1, most);
+    model.rising = read_forest(in, LeafKind::samples, trees, rows, invariant_feature_count(model.params));
+    model.facing = read_forest(in, LeafKind::samples, trees, rows, upright_feature_count(model.params));
+  }
   in.expect_end();
 }
 
@@ -347,7 +367,8 @@ void write_exemplars(const LandmarkModel& model, ByteWriter& out) {
       out.f32(sample.distance.data()[i]);
       for (const RowMatrixf* way : {&sample.directions.x, &sample.directions.y})
         out.u8(static_cast<uint8_t>(
-            std::lround(std::clamp(way->data()[i] / most_direction, -1.0F, 1.0F) * direction_steps) + direction_steps));
+            std::lround(std::clamp(way->data()[i] / most_direction, -1.0F, 1.0F) * direction_steps) +
+            direction_steps));
     }
   }
 }
@@ -361,9 +382,11 @@ void read_exemplars(ByteReader in, LandmarkModel& model) {
   }
   for (AtlasShape& shape : model.atlas) {
     const int32_t radii = in.u8("radii");
-    if (radii != 0 && radii != static_cast<int32_t>(bulge_radii.size())) in.fail("the radii are not those of the method");
+    if (radii != 0 && radii != static_cast<int32_t>(bulge_radii.size()))
+      in.fail("the radii are not those of the method");
     shape.bulge.resize(shape.distances.rows(), radii);
-    for (float& value : shape.bulge.reshaped<Eigen::RowMajor>()) value = (static_cast<float>(in.u16("bulge")) - bulge_steps) / bulge_steps;
+    for (float& value : shape.bulge.reshaped<Eigen::RowMajor>())
+      value = (static_cast<float>(in.u16("bulge")) - bulge_steps) / bulge_steps;
     ConstellationSample& sample = shape.constellation;
     sample.present = shape.marked;
     sample.handed = in.u8("handed") != 0;
@@ -371,7 +394,8 @@ void read_exemplars(ByteReader in, LandmarkModel& model) {
     for (Eigen::Index i = 0; i < L * L; ++i) {
       sample.distance.data()[i] = in.f32("distance of landmarks", 0, longest);
       for (RowMatrixf* way : {&sample.directions.x, &sample.directions.y})
-        way->data()[i] = (static_cast<float>(in.u8("direction")) - direction_steps) / direction_steps * most_direction;
+        way->data()[i] =
+            (static_cast<float>(in.u8("direction")) - direction_steps) / direction_steps * most_direction;
     }
   }
   in.expect_end();
@@ -384,11 +408,15 @@ struct Section {
   void (*read)(ByteReader, LandmarkModel&);
 };
 constexpr Section sections[] = {
-    {"INFO", write_info, read_info},         {"FEAT", write_features, read_features},
+    {"INFO", write_info, read_info},
+    {"FEAT", write_features, read_features},
     {"TRGT", write_targets, read_targets},
-    {"FRST", write_forests, read_forests},   {"CNST", write_constellation, read_constellation},
-    {"ATLS", write_atlas, read_atlas},       {"CALB", write_calibration, read_calibration},
-    {"SKEL", write_skeleton, read_skeleton}, {"EXMP", write_exemplars, read_exemplars},
+    {"FRST", write_forests, read_forests},
+    {"CNST", write_constellation, read_constellation},
+    {"ATLS", write_atlas, read_atlas},
+    {"CALB", write_calibration, read_calibration},
+    {"SKEL", write_skeleton, read_skeleton},
+    {"EXMP", write_exemplars, read_exemplars},
 };
 
 // Models of marked shapes have no skeleton, those of preset paper and of old versions no features and exemplars: their files lack the
@@ -425,8 +453,7 @@ LandmarkModel parse_model(std::span<const std::byte> file) {
   model.params.bulge = model.params.oriented = false;  // unless the file says so
   model.params.descriptor = method.descriptor, model.params.distance = method.distance;
   for (const Section& section : sections)
-    if (!may_lack(section) || archive.has(section.name))
-      section.read(archive.section(section.name), model);
+    if (!may_lack(section) || archive.has(section.name)) section.read(archive.section(section.name), model);
   return model;
 }
 

@@ -52,7 +52,12 @@ struct LandmarkModel : std::enable_shared_from_this<LandmarkModel> {
   std::vector<RegressionForest> forests;
   TargetMatrix targets;  // samples x landmarks
   float reach = 0;       // largest target, of sqrt(area)
-  std::vector<int32_t> sample_shape;  // per row of targets: the shape of the atlas that it is of, or a copy of; empty in old models
+  std::vector<int32_t>
+      sample_shape;  // per row of targets: the shape of the atlas that it is of, or a copy of; empty in old models
+  // Of models that learned an orientation, see landmarks/orientation.h: from what no motion changes to where a point lies and faces,
+  // and the same from what no turn about the up axis changes.
+  RegressionForest rising, facing;
+  RowMatrixf facing_targets;  // samples of their leaves x (position, normal)
   std::vector<AtlasShape> atlas;
   ConstellationStatistics constellation;
   Calibration calibration;

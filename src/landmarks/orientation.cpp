@@ -1,64 +1,105 @@
 #include "landmarks/orientation.h"
 
+#include <Eigen/SVD>
 #include <algorithm>
-#include <numeric>
+#include <cmath>
 
-#include "landmarks/exemplars.h"
 #include "landmarks/features.h"
 
 namespace focal {
 namespace {
 
-constexpr int32_t looked_at = 100;        // samples
-constexpr double clearly = 0.9;           // of the disagreement as the body stands
-constexpr double turned_penalty = 18;    // of facing another way: what the energies of right and wrong differ by
-constexpr double tilted_penalty = 24;     // of not standing upright
-constexpr size_t most_headings = 4;
+constexpr int32_t looked_at = 800;      // samples
+constexpr double turned_penalty = 11;   // of facing another way than +Z, in energies; files that do are few
+constexpr double tilted_penalty = 30;   // likewise of not standing upright
+constexpr double facing_weight = 160;   // of the correlation of how it faces, against energies
+constexpr double clearly_tilted = 0.6;  // by which the correlation with another up axis must be larger
 
-// The turns that map axes onto axes; the identity first, then half a turn about the y axis, then the other turns about it.
-std::vector<Matrix3> right_angles() {
-  std::vector<Matrix3> upright, tilted;
-  for (int x = 0; x < 3; ++x)
-    for (int y = 0; y < 3; ++y)
-      for (int signs = 0; signs < 4 && x != y; ++signs) {
-        Matrix3 turn = Matrix3::Zero();
-        turn(0, x) = signs & 1 ? -1 : 1, turn(1, y) = signs & 2 ? -1 : 1;
-        turn.row(2) = turn.row(0).cross(turn.row(1));
-        (turn(1, 1) == 1 ? upright : tilted).push_back(turn);
-      }
-  std::stable_sort(upright.begin(), upright.end(), [](const Matrix3& a, const Matrix3& b) {
-    return std::pair(std::abs(a(0, 0)), a(0, 0)) > std::pair(std::abs(b(0, 0)), b(0, 0));
-  });
-  upright.insert(upright.end(), tilted.begin(), tilted.end());
-  return upright;
+// For each row of features where the point is expected and how it faces, in the body's frame: the mean over the leaves.
+RowMatrixf expected_places(const RegressionForest& forest, const RowMatrixf& targets,
+                           const RowMatrixf& features) {
+  RowMatrixf result = RowMatrixf::Zero(features.rows(), targets.cols());
+  for (Eigen::Index s = 0; s < features.rows(); ++s)
+    for (const RegressionTree& tree : forest.trees) {
+      const int32_t leaf = tree.leaf_of(features.row(s).data());
+      const int32_t begin = tree.leaf_start[leaf], end = tree.leaf_start[leaf + 1];
+      const float share =
+          1.0f / static_cast<float>((end - begin) * static_cast<int64_t>(forest.trees.size()));
+      for (int32_t i = begin; i < end; ++i) result.row(s) += share * targets.row(tree.leaf_samples[i]);
+    }
+  return result;
+}
+
+// Sum over samples of expected times seen, an entry a pair of axes, normals and places alike; within -1..1. known, used: 1 for the
+// axes that count of either.
+Matrix3 correlation(const RowMatrixf& expected, const RowMatrixf& seen, const Eigen::RowVector3f& known,
+                    const Eigen::RowVector3f& used) {
+  Matrix3 sum = Matrix3::Zero();
+  for (const Eigen::Index first : {0, 3}) {
+    const RowMatrixf e = expected.middleCols<3>(first) * known.asDiagonal(),
+                     o = seen.middleCols<3>(first) * used.asDiagonal();
+    const double size = std::sqrt(static_cast<double>(e.squaredNorm()) * o.squaredNorm());
+    if (size > 0) sum += (e.transpose() * o).cast<double>() / size;
+  }
+  return sum;
+}
+
+RowMatrixf turned(RowMatrixf placed, const Matrix3& by) {
+  const Eigen::Matrix3f turn = by.cast<float>().transpose();
+  placed.leftCols<3>() *= turn, placed.rightCols<3>() *= turn;
+  return placed;
+}
+
+// The rotation that brings what is seen nearest to what is expected.
+Matrix3 best_turn(const Matrix3& correlation) {
+  const Eigen::JacobiSVD<Matrix3> svd(correlation, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
+  return svd.matrixU() * Vector3(1, 1, sign).asDiagonal() * svd.matrixV().transpose();
+}
+
+double fit(const Matrix3& correlation, const Matrix3& turn) {
+  return (turn.transpose() * correlation).trace();
+}
+
+Matrix3 about_up(double angle) { return Eigen::AngleAxisd(angle, Vector3::UnitY()).toRotationMatrix(); }
+
+// How a body that stands upright in `placed` may face: as it is, backwards, and where else it seems to.
+std::vector<Heading> headings_about_up(const LandmarkModel& model, const SurfaceAnalysis& analysis,
+                                       const RowMatrixf& placed, double prior) {
+  const RowMatrixf features = upright_features(analysis, placed);
+  // Left and right look alike to the features: of what is seen across the up axis only front and back are known.
+  const Matrix3 seen = correlation(expected_places(model.facing, model.facing_targets, features), placed,
+                                   {0, 0, 1}, {1, 0, 1});
+  const double best = std::atan2(seen(0, 2) - seen(2, 0), seen(0, 0) + seen(2, 2));
+  const auto penalty = [&](double angle) {
+    return (std::abs(angle) < 0.5 ? 0 : prior) - facing_weight * fit(seen, about_up(angle));
+  };
+  std::vector<Heading> result;
+  for (const double angle : {0.0, double{EIGEN_PI}}) result.push_back({about_up(angle), penalty(angle)});
+  if (std::abs(best) > 0.6 && std::abs(best) < EIGEN_PI - 0.6)
+    result.push_back({about_up(best), penalty(best)});
+  return result;
 }
 
 }  // namespace
 
 std::vector<Heading> headings_to_try(const LandmarkModel& model, const SurfaceAnalysis& analysis,
-                                     DetectParams::Orientation orientation, const Execution& execution) {
+                                     DetectParams::Orientation orientation) {
   if (!model.params.oriented) return {Heading{}};
-  const std::vector<Matrix3> turns = right_angles();
-  const auto count = std::min(looked_at, static_cast<int32_t>(analysis.samples.size()));
-  std::vector<double> apart(turns.size());
-  parallel_for(execution, static_cast<int64_t>(turns.size()), [&](int64_t t) {
-    apart[t] = disagreement(model, features_of(analysis, count, model.params, turns[t]));
-  });
   const bool any_way = orientation == DetectParams::Orientation::any_way;
-  const auto penalty = [&](size_t t) {
-    return any_way || t == 0 ? 0.0 : turns[t](1, 1) == 1 ? turned_penalty : tilted_penalty;
-  };
-  std::vector<size_t> order(turns.size());
-  std::iota(order.begin(), order.end(), size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return apart[a] < apart[b]; });
-  std::vector<Heading> result = {{turns[0], 0}, {turns[1], penalty(1)}};
-  for (const size_t t : order)
-    if (t > 1 && result.size() < most_headings && (any_way || apart[t] < clearly * apart[0]))
-      result.push_back({turns[t], penalty(t)});
-  if (getenv("FOCAL_TRACE")) {
-    fprintf(stderr, "apart I %.4f back %.4f best %.4f (%d)", apart[0], apart[1], apart[order[0]], (int)order[0]);
-    fprintf(stderr, " headings %d\n", (int)result.size());
-  }
+  const auto count = std::min(looked_at, static_cast<int32_t>(analysis.samples.size()));
+  const RowMatrixf placed = placed_features(analysis, count);
+  std::vector<Heading> result = headings_about_up(model, analysis, placed, any_way ? 0 : turned_penalty);
+  const Matrix3 risen =
+      correlation(expected_places(model.rising, model.facing_targets, invariant_features(analysis, count)),
+                  placed, {1, 1, 1}, {1, 1, 1});
+  const Matrix3 turn = best_turn(risen);
+  if (any_way || fit(risen, turn) > fit(risen, Matrix3::Identity()) + clearly_tilted)
+    for (Heading& heading : headings_about_up(model, analysis, turned(placed, turn), 0)) {
+      heading.frame = heading.frame * turn;
+      heading.penalty += any_way ? 0 : tilted_penalty;
+      result.push_back(heading);
+    }
   return result;
 }
 

@@ -12,9 +12,10 @@ struct Heading {
   double penalty = 0;                   // energy that it costs before anything is seen of the body
 };
 
-// The orientation of the training shapes first; then the same turned to face backwards, which looks most like it; then those of the 24
-// turns by right angles in which the forest's trees agree clearly better. A model without an orientation has one heading.
+// As the training shapes stand first, then facing backwards, which looks most like it, then where two forests expect the body to face
+// and its up axis to lie: one knows only what no motion changes of a point, the other also its height, and both where such points
+// lie and face on the training shapes. A model without an orientation has one heading.
 std::vector<Heading> headings_to_try(const LandmarkModel& model, const SurfaceAnalysis& analysis,
-                                     DetectParams::Orientation orientation, const Execution& execution);
+                                     DetectParams::Orientation orientation);
 
 }  // namespace focal

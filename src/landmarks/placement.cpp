@@ -40,8 +40,7 @@ RowMatrixf cast_votes(const LandmarkModel& model, const SurfaceAnalysis& analysi
   RowMatrixf votes = RowMatrixf::Zero(analysis.metric->vertex_count(), VoteTables::padded(L));
   Stopwatch watch;
   if (analysis.on_backend) {
-    votes = analysis.on_backend->votes(model, std::span(analysis.samples).first(count),
-                                       features);
+    votes = analysis.on_backend->votes(model, std::span(analysis.samples).first(count), features);
     seconds.vote += watch.lap();  // forest, distances and votes in one
     return votes.leftCols(L);
   }
@@ -151,14 +150,14 @@ struct Supposition {
   double penalty = 0;
 };
 
-Supposition suppose(const LandmarkModel& model, const SurfaceAnalysis& analysis, const Heading& heading, int32_t samples,
-                    const DetectParams& params, const Execution& execution, StageSeconds& seconds) {
+Supposition suppose(const LandmarkModel& model, const SurfaceAnalysis& analysis, const Heading& heading,
+                    int32_t samples, const DetectParams& params, const Execution& execution,
+                    StageSeconds& seconds) {
   Supposition result;
   Placement& start = result.start;
   const RowMatrixf features = features_of(analysis, samples, model.params, heading.frame);
   start.frame = heading.frame, result.penalty = heading.penalty;
-  start.exemplars = most_alike(model, features, getenv("K_EX") ? atoi(getenv("K_EX")) : used_exemplars);
-  if (getenv("FOCAL_TRACE")) { fprintf(stderr, "exemplars"); for (int e : start.exemplars) fprintf(stderr, " %d", e); fprintf(stderr, "\n"); }
+  start.exemplars = most_alike(model, features, used_exemplars);
   result.statistics = statistics_of(model, start.exemplars);
   start.votes = cast_votes(model, analysis, features, execution, seconds);
   Stopwatch watch;
@@ -166,7 +165,8 @@ Supposition suppose(const LandmarkModel& model, const SurfaceAnalysis& analysis,
   const auto surroundings = [&](int32_t v) {
     return connected_ball(analysis.operators.L, analysis.surface().positions, v, peak_separation);
   };
-  const int32_t wanted = model.params.oriented ? std::min(params.peaks_per_landmark, oriented_peaks) : params.peaks_per_landmark;
+  const int32_t wanted =
+      model.params.oriented ? std::min(params.peaks_per_landmark, oriented_peaks) : params.peaks_per_landmark;
   auto& peaks = result.peaks;
   peaks = analysis.on_backend ? analysis.on_backend->peaks(L, wanted, peak_separation)
                               : find_peaks(start.votes, L, wanted, 0, surroundings, execution);
@@ -179,14 +179,12 @@ Supposition suppose(const LandmarkModel& model, const SurfaceAnalysis& analysis,
   result.candidates.certain = std::move(certain);
   ConstellationParams how;
   if (model.params.oriented) how.restarts = oriented_restarts;
-  const auto knob = [](const char* n, double d) { return getenv(n) ? atof(getenv(n)) : d; };
-  how.unary_weight = knob("K_UNARY", how.unary_weight), how.pair_weight = knob("K_PAIR", how.pair_weight);
-  how.handedness_weight = knob("K_HAND", how.handedness_weight), how.absent_cost = knob("K_ABSENT", how.absent_cost);
   if (!analysis.proxy.full->is_oriented) how.handedness_weight = 0;
   result.choices = choose_constellations(result.statistics, result.candidates, how, execution);
   // What the votes are worth beside those of another supposition: a wrong one scatters them.
   for (int32_t l = 0; l < L; ++l)
-    result.penalty -= level_weight / L * std::log(std::max(start.votes.col(l).maxCoeff() / static_cast<float>(samples), 1e-9f));
+    result.penalty -= level_weight / L *
+                      std::log(std::max(start.votes.col(l).maxCoeff() / static_cast<float>(samples), 1e-9f));
   seconds.constellation += watch.lap();
   return result;
 }
@@ -198,12 +196,13 @@ Placement place_landmarks(const LandmarkModel& model, const SurfaceAnalysis& ana
                           const std::optional<Matrix3>& frame) {
   const int32_t samples = std::min(sample_limit, static_cast<int32_t>(analysis.samples.size()));
   const std::vector<Heading> headings =
-      frame ? std::vector<Heading>{{*frame, 0}} : headings_to_try(model, analysis, params.orientation, execution);
+      frame ? std::vector<Heading>{{*frame, 0}} : headings_to_try(model, analysis, params.orientation);
   std::vector<Supposition> suppositions;
   double least_energy = std::numeric_limits<double>::infinity();
   for (const Heading& heading : headings) {
     suppositions.push_back(suppose(model, analysis, heading, samples, params, execution, seconds));
-    least_energy = std::min(least_energy, suppositions.back().choices[0].energy + suppositions.back().penalty);
+    least_energy =
+        std::min(least_energy, suppositions.back().choices[0].energy + suppositions.back().penalty);
   }
   Stopwatch watch;
   struct Hypothesis {
@@ -214,24 +213,24 @@ Placement place_landmarks(const LandmarkModel& model, const SurfaceAnalysis& ana
   std::vector<Hypothesis> hypotheses;
   for (size_t s = 0; s < suppositions.size(); ++s)
     for (size_t c = 0; c < suppositions[s].choices.size(); ++c)
-      if (const double cost = suppositions[s].choices[c].energy + suppositions[s].penalty; cost <= least_energy + energy_margin)
+      if (const double cost = suppositions[s].choices[c].energy + suppositions[s].penalty;
+          cost <= least_energy + energy_margin)
         hypotheses.push_back({s, c, cost, {}});
   for (Hypothesis& one : hypotheses) {
     const Supposition& from = suppositions[one.supposition];
     one.placement = from.start;
-    record_evidence(from.peaks, from.candidates, from.choices[one.choice], samples, from.vertices, one.placement);
+    record_evidence(from.peaks, from.candidates, from.choices[one.choice], samples, from.vertices,
+                    one.placement);
     refine_placement(from.statistics, analysis, one.placement, execution);
     if (hypotheses.size() == 1) break;
     const MapFit fit = quick_map_fit(model, analysis, one.placement, execution);
     one.cost += residual_weight * fit.residual - bulge_weight * fit.bulge_agreement;
-    if (getenv("FOCAL_TRACE")) {
-      fprintf(stderr, "  hyp frame %.0f %.0f %.0f energy %.1f pen %.1f res %.4f bulge %.3f cost %.1f\n", one.placement.frame(0,0), one.placement.frame(1,1), one.placement.frame(2,2),
-              from.choices[one.choice].energy, from.penalty, fit.residual, fit.bulge_agreement, one.cost);
-    }
   }
-  std::stable_sort(hypotheses.begin(), hypotheses.end(), [](const auto& a, const auto& b) { return a.cost < b.cost; });
+  std::stable_sort(hypotheses.begin(), hypotheses.end(),
+                   [](const auto& a, const auto& b) { return a.cost < b.cost; });
   Placement result = std::move(hypotheses[0].placement);
-  result.runner_up = hypotheses.size() > 1 ? hypotheses[1].cost - hypotheses[0].cost : std::numeric_limits<double>::infinity();
+  result.runner_up = hypotheses.size() > 1 ? hypotheses[1].cost - hypotheses[0].cost
+                                           : std::numeric_limits<double>::infinity();
   join_carried_marks(model, analysis, params.quality, result, execution);
   record_borders(analysis, result);
   seconds.refine += watch.lap();

@@ -24,7 +24,7 @@ constexpr int32_t folds = 3;               // of the cross-fitted confidence
 constexpr int32_t spoiled_samples = 1500;  // of each spoiled copy; more help no more
 // Of all shapes and copies, so that models of many shapes stay small; fewer where an orientation makes features say more.
 constexpr double most_samples = 120000, most_oriented_samples = 40000;
-constexpr int32_t most_judged = 24;        // shapes left out in turn to learn confidence from
+constexpr int32_t most_judged = 24;  // shapes left out in turn to learn confidence from
 
 // What the training keeps of one shape.
 struct LearnedShape {
@@ -131,18 +131,54 @@ LearnedShape learn_shape(const MarkedShape& shape, const SurfaceAnalysis& analys
   return result;
 }
 
+// A few of each lesson's samples teach how a body faces.
+void learn_facing(LandmarkModel& model, const std::vector<const Lesson*>& lessons,
+                  const Execution& execution) {
+  constexpr int32_t most = 20000;
+  const int32_t share = std::max<int32_t>(most / static_cast<int32_t>(lessons.size()), 50);
+  const auto count_of = [&](const Lesson* lesson) {
+    return std::min(share, static_cast<int32_t>(lesson->analysis.samples.size()));
+  };
+  Eigen::Index rows = 0;
+  for (const Lesson* lesson : lessons) rows += count_of(lesson);
+  RowMatrixf invariant(rows, invariant_feature_count(model.params)),
+      upright(rows, upright_feature_count(model.params));
+  model.facing_targets.resize(rows, 6);
+  Eigen::Index row = 0;
+  for (const Lesson* lesson : lessons) {
+    const int32_t count = count_of(lesson);
+    const RowMatrixf placed = placed_features(lesson->analysis, count);
+    invariant.middleRows(row, count) = invariant_features(lesson->analysis, count);
+    upright.middleRows(row, count) = upright_features(lesson->analysis, placed);
+    model.facing_targets.middleRows(row, count) = placed;
+    row += count;
+  }
+  const ForestParams forest{.tree_count = 12,
+                            .min_leaf_samples = 8,
+                            .min_split_samples = 16,
+                            .components_per_split = 8,
+                            .seed = model.params.seed + 1};
+  model.rising = grow_forest(bin_descriptors(invariant, execution), model.facing_targets, forest, execution);
+  RowMatrixf forwards = model.facing_targets;  // front and back are all that it has to learn
+  for (const Eigen::Index other : {0, 1, 3, 4}) forwards.col(other).setZero();
+  model.facing = grow_forest(bin_descriptors(upright, execution), forwards, forest, execution);
+}
+
 // Fills the parts of a `default` model that the given shapes teach: forest, targets, reach from all their copies;
 // constellation and atlas from the whole ones, which are what a category looks like.
 void learn_parts(LandmarkModel& model, const std::vector<const Lessons*>& shapes,
                  const Execution& execution) {
   std::vector<const Lesson*> lessons;
   std::vector<int32_t> shape_of;  // per lesson
-  for (const auto* shape : shapes) shape_of.push_back(static_cast<int32_t>(lessons.size())), lessons.push_back(&shape->whole);
+  for (const auto* shape : shapes)
+    shape_of.push_back(static_cast<int32_t>(lessons.size())), lessons.push_back(&shape->whole);
   for (size_t s = 0; s < shapes.size(); ++s)
-    for (const auto& copy : shapes[s]->spoiled) shape_of.push_back(static_cast<int32_t>(s)), lessons.push_back(&copy);
+    for (const auto& copy : shapes[s]->spoiled)
+      shape_of.push_back(static_cast<int32_t>(s)), lessons.push_back(&copy);
   model.sample_shape.clear();
   for (size_t i = 0; i < lessons.size(); ++i)
-    model.sample_shape.insert(model.sample_shape.end(), static_cast<size_t>(lessons[i]->learned.targets.rows()), shape_of[i]);
+    model.sample_shape.insert(model.sample_shape.end(),
+                              static_cast<size_t>(lessons[i]->learned.targets.rows()), shape_of[i]);
   Eigen::Index rows = 0;
   for (const auto* lesson : lessons) rows += lesson->learned.targets.rows();
   const auto L = static_cast<Eigen::Index>(model.landmark_names.size());
@@ -184,6 +220,7 @@ void learn_parts(LandmarkModel& model, const std::vector<const Lessons*>& shapes
                             .min_split_samples = 2 * model.params.min_leaf_samples,
                             .components_per_split = model.params.components_per_split,
                             .seed = model.params.seed};
+  if (model.params.oriented) learn_facing(model, lessons, execution);
   model.forests.assign(1, grow_forest(bin_descriptors(descriptors, execution), targets, forest, execution));
 }
 
@@ -275,7 +312,8 @@ Matrix3 random_frame(Random random) {
   const double angle = heading * random.normal();
   const Vector3 axis(tilt * random.normal(), 0, tilt * random.normal());
   return (Eigen::AngleAxisd(axis.norm(), axis.norm() > 0 ? Vector3(axis.normalized()) : Vector3::UnitX()) *
-          Eigen::AngleAxisd(angle, Vector3::UnitY())).toRotationMatrix();
+          Eigen::AngleAxisd(angle, Vector3::UnitY()))
+      .toRotationMatrix();
 }
 
 Lesson make_lesson(MarkedShape shape, const AnalysisParams& how, const Execution& execution) {
@@ -288,7 +326,9 @@ std::vector<Lessons> make_lessons(const TrainingSet& set, const TrainParams& par
                                   const Execution& execution) {
   const bool paper = params.preset == Preset::paper;
   const int32_t copies = paper ? 1 : 1 + params.spoiled_copies;
-  const auto share = static_cast<int32_t>((params.oriented ? most_oriented_samples : most_samples) / (set.shapes.size() * (paper ? 1.0 : 1 + 0.4 * params.spoiled_copies)));
+  const auto share =
+      static_cast<int32_t>((params.oriented ? most_oriented_samples : most_samples) /
+                           (set.shapes.size() * (paper ? 1.0 : 1 + 0.4 * params.spoiled_copies)));
   std::vector<Lessons> shapes(set.shapes.size());
   std::vector<std::optional<Lesson>> spoiled_lessons(set.shapes.size() * copies);
   execution.begin_stage("analysis", 0, 0.3);
@@ -302,13 +342,14 @@ std::vector<Lessons> make_lessons(const TrainingSet& set, const TrainParams& par
     how.seed = params.seed, how.stream = static_cast<uint64_t>(s);
     if (copy == 0) {
       shapes[s].whole = make_lesson(set.shapes[s], how, execution.inner());
-    } else if (auto bad =
-                   spoiled(set.shapes[s], static_cast<int32_t>((copy - 1 + s) % 3), Random(params.seed, 5000 + i), execution.inner())) {
+    } else if (auto bad = spoiled(set.shapes[s], static_cast<int32_t>((copy - 1 + s) % 3),
+                                  Random(params.seed, 5000 + i), execution.inner())) {
       how.max_samples = std::min({how.max_samples, spoiled_samples, 2 * share / 5});
       spoiled_lessons[i] = make_lesson(*std::move(bad), how, execution.inner());
       spoiled_lessons[i]->frame = random_frame(Random(params.seed, 15000 + i));
     }
-    if (copy == 0 && set.shapes[s].is_copy) shapes[s].whole.frame = random_frame(Random(params.seed, 15000 + i));
+    if (copy == 0 && set.shapes[s].is_copy)
+      shapes[s].whole.frame = random_frame(Random(params.seed, 15000 + i));
     execution.report(static_cast<double>(++done) / static_cast<double>(spoiled_lessons.size()));
   });
   for (size_t i = 0; i < spoiled_lessons.size(); ++i)

@@ -193,7 +193,8 @@ void warn(PreparedMesh& mesh) {
 bool needs_wrap(const PreparedMesh& mesh) {
   constexpr double many = 0.02;  // of all edges
   if (mesh.components > 1) return true;
-  return mesh.topology && static_cast<double>(mesh.topology->nonmanifold_edges) > many * mesh.surface.vertex_count();
+  return mesh.topology &&
+         static_cast<double>(mesh.topology->nonmanifold_edges) > many * mesh.surface.vertex_count();
 }
 
 // Not to the vertex at the origin that replace_invalid made of it.

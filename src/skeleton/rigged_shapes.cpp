@@ -111,15 +111,16 @@ RiggedMesh wrapped(const RiggedMesh& character, const Execution& execution) {
   for (const SurfacePoint& point : nearest) {
     std::vector<Influence> influences;
     for (int c = 0; c < 3; ++c)
-      for (Influence one : character.rig.influences[mesh.source_vertex[mesh.surface.triangles(point.triangle, c)]]) {
+      for (Influence one :
+           character.rig.influences[mesh.source_vertex[mesh.surface.triangles(point.triangle, c)]]) {
         one.weight *= static_cast<float>(point.barycentric[c]);
         influences.push_back(one);
       }
     result.rig.influences.push_back(heaviest(influences));
   }
   shell.positions = (mesh.scale * shell.positions).rowwise() + mesh.centre.transpose();
-  result.mesh = std::make_shared<const PreparedMesh>(
-      prepare(std::move(shell), {.analysed = AnalysedSurface::as_it_is, .repair_orientation = false}, execution));
+  result.mesh = std::make_shared<const PreparedMesh>(prepare(
+      std::move(shell), {.analysed = AnalysedSurface::as_it_is, .repair_orientation = false}, execution));
   return result;
 }
 
