@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
+#include <tuple>
 
 #include "base/error.h"
 
@@ -14,6 +16,7 @@ namespace {
 constexpr double one_place = 1e-4;      // of the mesh's largest extent: joints that lie no farther apart
 constexpr double least_weighted = 0.5;  // share of the vertices that a joint should move
 constexpr size_t most_named = 4;        // joints, or groups of characters, that one sentence names
+constexpr size_t most_numbered = 12;    // characters that it names
 
 using Names = std::vector<std::string>;
 
@@ -30,10 +33,11 @@ std::string number_text(const std::vector<RiggedMesh>& characters, size_t index)
 
 // "character 2 (b.glb)", "characters 2, 3 and 7".
 std::string called(const std::vector<RiggedMesh>& characters, const std::vector<size_t>& which) {
+  const size_t said = which.size() > most_numbered ? most_numbered - 1 : which.size();
   std::string text = which.size() == 1 ? "character " : "characters ";
-  for (size_t i = 0; i < which.size(); ++i)
+  for (size_t i = 0; i < said; ++i)
     text += (i == 0 ? "" : i + 1 == which.size() ? " and " : ", ") + number_text(characters, which[i]);
-  return text;
+  return text + (said < which.size() ? " and " + std::to_string(which.size() - said) + " more" : "");
 }
 
 // Of the joints that move something: others are controls, which need no match.
