@@ -82,9 +82,7 @@ void rename_joints(const focal_skeleton_params& params, CharacterRig& rig) {
     joints[j].name = params.joint_names && params.joint_names[j] ? params.joint_names[j] : names[j];
 }
 
-// Before the joints are renamed: pairs of them, and those of the model, are told by their names.
-void judge(SkeletonObject& object) {
-  const RigMeasures measures = rig_measures(object.detection->detection, object.rig);
+void judge(SkeletonObject& object, const RigMeasures& measures) {
   object.verdict = verdict_of(measures), object.quality = rig_quality(measures);
   object.guessed_joints = static_cast<uint32_t>(
       std::lround(measures.absent_share * static_cast<double>(object.rig.rig.joints.size())));
@@ -164,16 +162,18 @@ focal_status focal_skeleton_create(const focal_detection* detection, const focal
     if (by_hand) by_hand->symmetric |= how.symmetric != 0;
     object->rig = by_hand ? rig_by_template(*by_hand, found, execution)
                           : transfer_rig(found, execution, how.symmetric != 0);
+    // Before the joints are renamed: pairs of them, and those of the model, are told by their names.
+    const RigMeasures measures = rig_measures(found, object->rig);
     if (how.rest_pose && object->rig.rest.empty())
       throw Error(Status::invalid_argument, "the template has no rest pose",
                   R"(give its joints a "rest": the way their bones point)");
-    judge(*object);
     if (character) {
       object->animations = animations_for(object->rig, *object->detection->mesh->mesh, *character);
       if (object->animations.empty()) object->rig.warnings.push_back("the character has no animations");
     }
     object->in_rest_pose = how.rest_pose != 0;
     rename_joints(how, object->rig);
+    judge(*object, measures);
     object->detection->model->context->report_warnings(object->rig.warnings);
     *out_skeleton = publish(object);
   });

@@ -9,6 +9,7 @@
 namespace focal {
 namespace {
 
+// Where the thresholds stand is a first guess from a few humanoids, animals and robots; fit them on left-out families.
 // The quality is a product of factors, one a measure: 1 up to `fine`, from there linear to `least` at `bad` and beyond.
 struct Criterion {
   double RigMeasures::*measure;
@@ -17,21 +18,21 @@ struct Criterion {
 };
 constexpr Criterion criteria[] = {
     {&RigMeasures::category_fit, 0.3, 0.02, 0.4, "the mesh is unlike the characters that taught the model"},
-    {&RigMeasures::map_residual, 0.35, 0.7, 0.4, "no training character fits the surface well"},
-    {&RigMeasures::bulge_agreement, 0.35, 0.05, 0.4,
+    {&RigMeasures::map_residual, 0.62, 0.8, 0.6, "no training character fits the surface well"},
+    {&RigMeasures::bulge_agreement, 0.05, -0.1, 0.6,
      "the surface bulges elsewhere than on the training characters"},
     {&RigMeasures::runner_up, 2, 0, 0.6,
      "another way to lie in the mesh, turned or mirrored, suits nearly as well"},
-    {&RigMeasures::joint_spread, 0.35, 0.85, 0.3, "the training characters disagree on where the joints lie"},
+    {&RigMeasures::joint_spread, 0.5, 0.8, 0.4, "the training characters disagree on where the joints lie"},
     {&RigMeasures::absent_share, 0.15, 0.7, 0.3, "many joints lie in parts of the body that were not found"},
-    {&RigMeasures::copy_distance, 0.06, 0.2, 0.3,
+    {&RigMeasures::copy_distance, 0.05, 0.13, 0.25,
      "a training character that takes this pose does not cover the mesh"},
     {&RigMeasures::outside_share, 0, 0.15, 0.15, "joints lie far outside the body"},
     {&RigMeasures::long_share, 0, 0.08, 0.15, "bones are longer than most of the body"},
     {&RigMeasures::collapsed_share, 0, 0.2, 0.2, "bones have no length"},
     {&RigMeasures::merged_share, 0, 0.25, 0.2, "joints of the left and the right side lie in one place"},
     {&RigMeasures::crossed_share, 0.05, 0.3, 0.2, "bones of one side lead over to the other"},
-    {&RigMeasures::bone_strain, 0.5, 1.5, 0.2,
+    {&RigMeasures::bone_strain, 0.35, 0.8, 0.3,
      "the lengths of the bones are unlike those of the training characters"}};
 constexpr double good_quality = 0.65, failed_quality = 0.25, doubted_factor = 0.85;
 
@@ -169,7 +170,8 @@ std::optional<Middle> middle_of(const Figure& figure) {
   for (size_t j = 0; j < figure.place.size(); ++j) {
     if (!figure.is_left[j]) continue;
     const Vector3 &left = *figure.place[j], &right = *figure.place[figure.pair[j]];
-    result.across += right - left, between.push_back((left + right) / 2);
+    result.across += (right - left).stableNormalized();  // each pair has one voice, however far it reaches
+    between.push_back((left + right) / 2);
   }
   if (between.empty() || !(result.across.norm() > 1e-9)) return std::nullopt;
   result.across.normalize();

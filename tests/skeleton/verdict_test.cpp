@@ -57,13 +57,13 @@ TEST_CASE("nothing measured, nothing wrong") {
 TEST_CASE("the worse a measure, the lower the quality; all bad: failed, with the worst doubt first") {
   RigMeasures all;
   const std::vector<std::pair<double RigMeasures::*, std::vector<double>>> worse = {
-      {&RigMeasures::category_fit, {1, 0.15, 0}},     {&RigMeasures::map_residual, {0.1, 0.5, 2}},
-      {&RigMeasures::bulge_agreement, {0.8, 0.2, 0}}, {&RigMeasures::runner_up, {1e9, 1, 0}},
-      {&RigMeasures::joint_spread, {0, 0.5, 1}},      {&RigMeasures::absent_share, {0, 0.4, 1}},
-      {&RigMeasures::copy_distance, {0, 0.1, 1}},     {&RigMeasures::outside_share, {0, 0.05, 1}},
-      {&RigMeasures::long_share, {0, 0.04, 1}},       {&RigMeasures::collapsed_share, {0, 0.1, 1}},
-      {&RigMeasures::merged_share, {0, 0.1, 1}},      {&RigMeasures::crossed_share, {0, 0.2, 1}},
-      {&RigMeasures::bone_strain, {0, 1, 5}}};
+      {&RigMeasures::category_fit, {1, 0.15, 0}},      {&RigMeasures::map_residual, {0.1, 0.7, 2}},
+      {&RigMeasures::bulge_agreement, {0.8, 0, -0.5}}, {&RigMeasures::runner_up, {1e9, 1, 0}},
+      {&RigMeasures::joint_spread, {0, 0.6, 1}},       {&RigMeasures::absent_share, {0, 0.4, 1}},
+      {&RigMeasures::copy_distance, {0, 0.1, 1}},      {&RigMeasures::outside_share, {0, 0.05, 1}},
+      {&RigMeasures::long_share, {0, 0.04, 1}},        {&RigMeasures::collapsed_share, {0, 0.1, 1}},
+      {&RigMeasures::merged_share, {0, 0.1, 1}},       {&RigMeasures::crossed_share, {0, 0.2, 1}},
+      {&RigMeasures::bone_strain, {0, 0.5, 5}}};
   for (const auto& [measure, values] : worse) {
     RigMeasures one;
     double before = 2;
