@@ -69,6 +69,13 @@ size_t known_prefix(const std::string& name) {
   return 0;
 }
 
+// All of them: "Armature_mixamorig:".
+size_t known_prefixes(const std::string& name) {
+  size_t all = 0;
+  while (const size_t one = known_prefix(name.substr(all))) all += one;
+  return all;
+}
+
 size_t shared_prefix(const Names& names) {
   size_t length = names.empty() ? 0 : names[0].size();
   for (const std::string& name : names) {
@@ -85,7 +92,7 @@ enum class Spelling { as_written, without_prefix, without_any_prefix };
 std::vector<size_t> prefixes(const Names& names, Spelling spelling) {
   std::vector<size_t> result(names.size(), 0);
   if (spelling == Spelling::as_written) return result;
-  std::transform(names.begin(), names.end(), result.begin(), known_prefix);
+  std::transform(names.begin(), names.end(), result.begin(), known_prefixes);
   if (std::any_of(result.begin(), result.end(), [](size_t length) { return length > 0; })) return result;
   size_t length = shared_prefix(names);
   const auto separates = [&](size_t at) {
@@ -190,7 +197,7 @@ Names clauses(const std::vector<RiggedMesh>& characters, const std::vector<Share
     result.push_back(called(characters, which) + verb + found + " of " +
                      std::to_string(one.joints.size() + one.others.size()) + " joints with the others" +
                      (one.joints.empty() ? "" : ": " + listed(one.joints)) +
-                     (one.others.empty() ? "" : "; the others are called " + listed(one.others)));
+                     (one.others.empty() ? "" : "; other joints are called " + listed(one.others)));
   }
   return result;
 }

@@ -66,7 +66,8 @@ TEST_CASE("characters of one skeleton: nothing to say, nothing changed") {
 }
 
 TEST_CASE("a prefix on some of the files is put aside, and said so") {
-  for (const std::string prefix : {"mixamorig:", "mixamorig1:", "Armature_", "Bip001 ", "hero|", "X"}) {
+  for (const std::string prefix :
+       {"mixamorig:", "mixamorig1:", "Armature_", "Armature_mixamorig:", "Bip001 ", "hero|", "X"}) {
     CAPTURE(prefix);
     std::vector<RiggedMesh> characters = {teacher(), prefixed(prefix), teacher(), prefixed(prefix)};
     const std::vector<std::string> warnings = match_teachers(characters);
