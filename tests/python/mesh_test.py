@@ -117,7 +117,7 @@ class Refused(Case):
 
     def test_parameters(self):
         vertices, faces, _ = shape()
-        for name in ("weld", "drop_degenerate", "bridge_components", "max_vertices", "max_triangles"):
+        for name in ("weld", "drop_degenerate", "max_vertices", "max_triangles"):
             with self.assertRaisesRegex(TypeError, f"{name} must be an integer"):
                 focal.Mesh(vertices, faces, **{name: "yes"})
         with self.assertRaisesRegex(ValueError, "weld is 4294967296"):
