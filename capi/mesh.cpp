@@ -43,7 +43,7 @@ struct StructTraits<focal_mesh_info> {
   static focal_mesh_info defaults() { return {}; }
 };
 static_assert(sizeof(focal_mesh_info) == 136 && offsetof(focal_mesh_info, repair_seconds) == 64 &&
-              offsetof(focal_mesh_info, is_oriented) == 128);
+              offsetof(focal_mesh_info, is_oriented) == 128 && offsetof(focal_mesh_info, is_wrapped) == 132);
 
 focal_mesh_params StructTraits<focal_mesh_params>::defaults() {
   const PrepareParams prepare;
@@ -175,6 +175,7 @@ focal_mesh_info info_of(const MeshObject& object) {
   info.boundary_loops = count(mesh.topology->boundary_loops);
   info.component_count = count(mesh.components);
   info.is_oriented = mesh.is_oriented;
+  info.is_wrapped = mesh.is_wrapped;
   return info;
 }
 
@@ -182,6 +183,7 @@ struct LoadedFile {
   GltfMesh gltf;
   std::vector<std::byte> bytes;  // when they are to be kept
   std::optional<std::filesystem::path> folder = std::nullopt;
+  std::string name = {};
 };
 
 LoadedFile read_path(const std::filesystem::path& path, const GltfReadParams& how, bool keep) {
@@ -191,6 +193,7 @@ LoadedFile read_path(const std::filesystem::path& path, const GltfReadParams& ho
   if (!keep) bytes.clear();
   LoadedFile loaded{std::move(gltf), std::move(bytes)};
   if (how.allow_external_files) loaded.folder = path.parent_path();
+  loaded.name = text_of(path.filename());
   return loaded;
 }
 
@@ -243,6 +246,7 @@ focal_mesh* load(const focal_context* context, const focal_mesh_params* given, R
     loaded.bytes.clear();
   }
   object->load_seconds = watch.lap();
+  object->name = std::move(loaded.name);
   object->file = std::move(loaded.bytes);
   object->primitives = std::move(loaded.gltf.primitives);
   object->warnings = std::move(loaded.gltf.warnings);

@@ -24,6 +24,7 @@ struct MeshObject {
   double mean_edge_length = 0, surface_area = 0;
   double load_seconds = 0, repair_seconds = 0;
   std::vector<std::string> warnings;      // of reading, then of preparing
+  std::string name;                       // of the file it came from, for messages; or none
   std::vector<std::byte> file;            // the caller's glTF; empty when there is none or it was not kept
   std::vector<GltfPrimitive> primitives;  // of that file
   GltfLimits limits;                      // it was read with

@@ -137,10 +137,13 @@ focal_status focal_model_train(const focal_training_set* set, const focal_train_
     const Execution execution = object->context->execution_with(lease.task());
     execution.check_cancelled();
     const bool rigged = !object->characters.empty();
+    std::vector<std::string> odd;
     const TrainingSet made =
         rigged ? training_set_of(object->characters,
-                                 {.shapes = read_struct(params).rigged_shapes, .seed = how.seed}, execution)
+                                 {.shapes = read_struct(params).rigged_shapes, .seed = how.seed}, execution,
+                                 &odd)
                : TrainingSet{};
+    object->context->report_warnings(odd);
     *out_model = publish_model(object->context, train(rigged ? made : object->set, how, execution));
   });
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "arguments.h"
@@ -35,7 +36,12 @@ struct StructTraits<focal_skeleton_info> {
   static constexpr size_t first_size = 32;
   static focal_skeleton_info defaults() { return {}; }
 };
-static_assert(sizeof(focal_skeleton_info) == 32 && offsetof(focal_skeleton_info, unweighted_vertices) == 24);
+static_assert(sizeof(focal_skeleton_info) == 48 && offsetof(focal_skeleton_info, unweighted_vertices) == 24 &&
+              offsetof(focal_skeleton_info, quality) == 32 &&
+              offsetof(focal_skeleton_info, guessed_joints) == 44);
+static_assert(FOCAL_VERDICT_GOOD == static_cast<int>(Verdict::good) &&
+              FOCAL_VERDICT_CHECK == static_cast<int>(Verdict::check) &&
+              FOCAL_VERDICT_FAILED == static_cast<int>(Verdict::failed));
 
 template <>
 struct StructTraits<focal_joint> {
@@ -74,6 +80,17 @@ void rename_joints(const focal_skeleton_params& params, CharacterRig& rig) {
     rig.warnings.push_back("bone '" + name + "' has no name in this convention and keeps its own");
   for (size_t j = 0; j < joints.size(); ++j)
     joints[j].name = params.joint_names && params.joint_names[j] ? params.joint_names[j] : names[j];
+}
+
+void judge(SkeletonObject& object, const RigMeasures& measures) {
+  object.verdict = verdict_of(measures), object.quality = rig_quality(measures);
+  object.guessed_joints = static_cast<uint32_t>(
+      std::lround(measures.absent_share * static_cast<double>(object.rig.rig.joints.size())));
+  if (object.verdict == Verdict::good) return;
+  std::string text = object.verdict == Verdict::failed ? "the rig failed" : "the rig should be looked at";
+  const std::vector<std::string> doubts = doubts_about(measures);
+  for (size_t i = 0; i < doubts.size(); ++i) text += (i ? "; " : ": ") + doubts[i];
+  object.rig.warnings.push_back(text);
 }
 
 std::vector<JointAnimation> animations_for(const CharacterRig& rig, const PreparedMesh& target,
@@ -145,6 +162,8 @@ focal_status focal_skeleton_create(const focal_detection* detection, const focal
     if (by_hand) by_hand->symmetric |= how.symmetric != 0;
     object->rig = by_hand ? rig_by_template(*by_hand, found, execution)
                           : transfer_rig(found, execution, how.symmetric != 0);
+    // Before the joints are renamed: pairs of them, and those of the model, are told by their names.
+    const RigMeasures measures = rig_measures(found, object->rig);
     if (how.rest_pose && object->rig.rest.empty())
       throw Error(Status::invalid_argument, "the template has no rest pose",
                   R"(give its joints a "rest": the way their bones point)");
@@ -154,6 +173,7 @@ focal_status focal_skeleton_create(const focal_detection* detection, const focal
     }
     object->in_rest_pose = how.rest_pose != 0;
     rename_joints(how, object->rig);
+    judge(*object, measures);
     object->detection->model->context->report_warnings(object->rig.warnings);
     *out_skeleton = publish(object);
   });
@@ -175,6 +195,9 @@ focal_status focal_skeleton_get_info(const focal_skeleton* skeleton, focal_skele
     info.joint_count = static_cast<uint32_t>(object->rig.rig.joints.size());
     info.warning_count = static_cast<uint32_t>(object->rig.warnings.size());
     info.vertex_count = influences.size();
+    info.quality = object->quality;
+    info.verdict = static_cast<focal_verdict>(object->verdict);
+    info.guessed_joints = object->guessed_joints;
     for (const VertexInfluences& one : influences) {
       const auto used = static_cast<uint32_t>(
           std::count_if(one.begin(), one.end(), [](const Influence& i) { return i.weight > 0; }));

@@ -7,6 +7,7 @@
 #include "detection.h"
 #include "handles.h"
 #include "skeleton/rig_transfer.h"
+#include "skeleton/verdict.h"
 
 namespace focal {
 
@@ -16,6 +17,9 @@ struct SkeletonObject {
 
   std::shared_ptr<const DetectionObject> detection;
   CharacterRig rig;
+  Verdict verdict = Verdict::check;
+  double quality = 0;
+  uint32_t guessed_joints = 0;
   std::vector<JointAnimation> animations;
   bool in_rest_pose = false;  // as the file shows it
 };

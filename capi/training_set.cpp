@@ -5,10 +5,12 @@
 #include <unordered_set>
 #include <utility>
 
+#include "arguments.h"
 #include "base/error.h"
 #include "boundary.h"
 #include "gltf/skin.h"
 #include "mesh.h"
+#include "skeleton/teachers.h"
 #include "structs.h"
 #include "surface_points.h"
 
@@ -62,7 +64,8 @@ RiggedMesh rigged(const MeshObject& mesh) {
   if (mesh.file.empty())
     throw Error(Status::invalid_argument, "the mesh has no glTF file to take a skeleton from",
                 "load it with focal_mesh_load_gltf and focal_mesh_params.keep_source_file 1");
-  auto rig = read_gltf_rig(mesh.file, mesh.primitives, mesh.limits, mesh.folder);
+  int64_t invalid_weights = 0;
+  auto rig = read_gltf_rig(mesh.file, mesh.primitives, mesh.limits, mesh.folder, &invalid_weights);
   if (!rig)
     throw Error(Status::invalid_argument, "the mesh has no skin",
                 "add a rigged character, or mark landmarks on the mesh with focal_training_set_add");
@@ -70,7 +73,7 @@ RiggedMesh rigged(const MeshObject& mesh) {
   if (std::none_of(rig->influences.begin(), rig->influences.end(), is_moved))
     throw Error(Status::invalid_argument, "no vertex of the mesh is moved by a joint of its skin",
                 "paint skin weights, or export them (JOINTS_0, WEIGHTS_0)");
-  return {mesh.mesh, std::move(*rig)};
+  return {mesh.mesh, std::move(*rig), mesh.name, invalid_weights};
 }
 
 }  // namespace
@@ -122,6 +125,30 @@ focal_status focal_training_set_add_rig(focal_training_set* set, const focal_mes
       throw Error(Status::invalid_argument, "the training set has landmark names of its own",
                   "create one for rigged characters with landmark_count 0");
     object->characters.push_back(rigged(*resolve<MeshObject>(mesh)));
+  });
+}
+
+focal_status focal_training_set_check(focal_training_set* set) {
+  return guarded([&] {
+    const auto object = resolve<TrainingSetObject>(set);
+    object->warnings.clear();
+    if (!object->set.landmark_names.empty()) return;
+    if (object->characters.empty())
+      throw Error(Status::invalid_argument, "the training set has no rigged character",
+                  "add one with focal_training_set_add_rig");
+    std::vector<RiggedMesh> characters = object->characters;
+    object->warnings = match_teachers(characters);
+  });
+}
+
+uint32_t focal_training_set_warning_count(const focal_training_set* set) {
+  return guarded_value<uint32_t>(
+      0, [&] { return static_cast<uint32_t>(resolve<TrainingSetObject>(set)->warnings.size()); });
+}
+
+const char* focal_training_set_warning(const focal_training_set* set, uint32_t index) {
+  return guarded_value<const char*>(nullptr, [&] {
+    return text_at(resolve<TrainingSetObject>(set)->warnings, index, "the training set", "warnings");
   });
 }
 

@@ -1,6 +1,7 @@
 // focal_training_set: the builder of what training starts from.
 #pragma once
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "context.h"
@@ -17,6 +18,7 @@ struct TrainingSetObject {
   std::shared_ptr<const ContextObject> context;
   TrainingSet set;
   std::vector<RiggedMesh> characters;  // of a set without landmark names: these follow from their skeletons
+  std::vector<std::string> warnings;   // of the last check
 };
 
 }  // namespace focal

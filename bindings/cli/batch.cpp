@@ -9,6 +9,8 @@
 #include "output.h"
 #include "parameters.h"
 #include "progress.h"
+#include "text_table.h"
+#include "verdict_text.h"
 
 namespace focal_cli {
 namespace {
@@ -17,7 +19,7 @@ namespace fs = std::filesystem;
 
 struct Options : CommonOptions {
   std::string model, input, output, shard;
-  bool rig = false;
+  bool rig = false, keep_failed = false;
   focal_quality quality = FOCAL_QUALITY_BEST;
 };
 
@@ -49,14 +51,21 @@ std::vector<fs::path> meshes_in(const std::string& folder, const std::string& sh
 // The mesh's own file with landmarks, and with a skeleton if asked for.
 Json process(const Context& context, const focal_model* model, const fs::path& file, const fs::path& target,
              const Options& options, focal_task* task) {
-  const Mesh mesh = load_mesh(context.get(), file.string(), options.lenient);
+  const Mesh mesh = load_mesh(context.get(), file.string(), options);
   auto params = detect_params_of(options.quality, options);
   params.keep_votes = 0;
   const auto detection = owned<Detection>(focal_model_detect, model, mesh.get(), &params, task);
+  Json entry = {{"status", "done"}};
   if (options.rig) {
     const auto skeleton = owned<Skeleton>(focal_skeleton_create, detection.get(),
                                           static_cast<const focal_skeleton_params*>(nullptr), task);
-    check(focal_skeleton_write_gltf(skeleton.get(), target.string().c_str()));
+    const RigVerdict verdict = verdict_of(skeleton.get(), detection.get());
+    add_verdict(entry, verdict);
+    if (verdict.failed())
+      entry["status"] = "failed", entry["error"] = "the verdict on its rig",
+      entry["hint"] = verdict_hint(verdict);
+    if (!verdict.failed() || options.keep_failed)
+      check(focal_skeleton_write_gltf(skeleton.get(), target.string().c_str()));
   } else {
     check(focal_detection_write_gltf(detection.get(), target.string().c_str()));
   }
@@ -68,10 +77,41 @@ Json process(const Context& context, const focal_model* model, const fs::path& f
     check(focal_detection_get_landmark(detection.get(), i, &landmark));
     found += landmark.status == FOCAL_LANDMARK_FOUND;
   }
-  return {{"status", "done"},
-          {"found", found},
-          {"landmarks", info.landmark_count},
-          {"category_fit", info.category_fit}};
+  entry.update({{"found", found}, {"landmarks", info.landmark_count}, {"category_fit", info.category_fit}});
+  return entry;
+}
+
+// How many rigs of each verdict were made now.
+Json verdict_counts(const Json& list) {
+  Json counts = {{"good", 0}, {"check", 0}, {"failed", 0}};
+  for (const Json& entry : list)
+    if (entry.contains("verdict")) {
+      Json& count = counts[entry["verdict"].get<std::string>()];
+      count = count.get<int>() + 1;
+    }
+  return counts;
+}
+
+void print_report(const Options& options, const Json& list, size_t kept, size_t failed) {
+  const Json verdicts = verdict_counts(list);
+  const size_t done = list.size() - failed - kept;
+  if (options.json) {
+    Json report = {{"meshes", list}, {"done", done}, {"kept", kept}, {"failed", failed}};
+    if (options.rig) report["verdicts"] = verdicts;
+    print_json(report);
+  }
+  if (!options.prints_text()) return;
+  for (const Json& entry : list)
+    std::cout << entry["mesh"].get<std::string>() << ": " << entry["status"].get<std::string>()
+              << (entry.contains("error") ? ", " + entry["error"].get<std::string>() : "")
+              << (entry.contains("verdict") ? ", " + entry["verdict"].get<std::string>() + ", quality " +
+                                                  percent_text(entry["quality"].get<double>(), 0)
+                                            : "")
+              << "\n";
+  std::cout << done << " done, " << kept << " there already, " << failed << " failed\n";
+  if (options.rig)
+    std::cout << "rigs: " << verdicts["good"] << " good, " << verdicts["check"] << " to check, "
+              << verdicts["failed"] << " failed\n";
 }
 
 void batch(const Options& options) {
@@ -93,6 +133,7 @@ void batch(const Options& options) {
     } else {
       try {
         entry.update(process(context, model.get(), files[i], target, options, task));
+        failed += entry["status"] == "failed";
       } catch (const CommandError& problem) {
         if (focal_task_is_cancelled(task)) throw CommandError("cancelled", "run it again to go on");
         entry["status"] = "failed", entry["error"] = problem.what(), entry["hint"] = problem.hint, ++failed;
@@ -101,16 +142,7 @@ void batch(const Options& options) {
     list.push_back(std::move(entry));
   }
   progress.clear();
-  if (options.json)
-    print_json(
-        {{"meshes", list}, {"done", files.size() - failed - kept}, {"kept", kept}, {"failed", failed}});
-  if (options.prints_text()) {
-    for (const Json& entry : list)
-      std::cout << entry["mesh"].get<std::string>() << ": " << entry["status"].get<std::string>()
-                << (entry.contains("error") ? ", " + entry["error"].get<std::string>() : "") << "\n";
-    std::cout << files.size() - failed - kept << " done, " << kept << " there already, " << failed
-              << " failed\n";
-  }
+  print_report(options, list, kept, failed);
   if (failed > 0)
     throw CommandError(std::to_string(failed) + " of " + std::to_string(files.size()) + " meshes failed",
                        "the others are done; run it again after mending those");
@@ -131,10 +163,12 @@ void add_batch(CLI::App& app) {
       ->required();
   verb->add_flag("--rig", options->rig,
                  "Also a skeleton and skin weights: needs a model of rigged characters");
+  verb->add_flag("--keep-failed", options->keep_failed,
+                 "With --rig: write a file even where the verdict is 'failed'");
   verb->add_option("--shard", options->shard, "Only part I of N of the files, to share the work")
       ->type_name("I/N");
   add_quality_option(*verb, options->quality);
-  add_lenient_option(*verb, *options);
+  add_mesh_options(*verb, *options);
   add_common_options(*verb, *options);
   verb->callback([options] { batch(*options); });
 }

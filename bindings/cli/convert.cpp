@@ -1,7 +1,8 @@
-// focal convert: one landmark file format into another.
+// focal convert: one landmark file format into another, or a mesh into the closed surface round it.
 #include <iostream>
 
 #include "landmark_files.h"
+#include "marked_mesh.h"
 #include "options.h"
 #include "output.h"
 
@@ -12,7 +13,30 @@ struct Options : CommonOptions {
   std::string in, out;
 };
 
+bool is_gltf(const std::string& path) { return path.ends_with(".glb") || path.ends_with(".gltf"); }
+
+// To look at what stands for a character of many parts in the analysis.
+void convert_to_wrap(const Options& options) {
+  check_output_folder(options.out);
+  const Context context = make_context(options);
+  const Mesh mesh = load_mesh(context.get(), options.in, options);
+  check(focal_mesh_write_wrap_gltf(mesh.get(), options.out.c_str()));
+  const Mesh wrap = load_mesh(context.get(), options.out, {.surface = FOCAL_SURFACE_AS_IS});
+  const focal_mesh_info from = info_of(mesh.get()), to = info_of(wrap.get());
+  const char* analysed = from.is_wrapped ? "wrapped" : "as-is";
+  if (options.json)
+    print_json({{"in", options.in},
+                {"out", options.out},
+                {"vertices", to.vertex_count},
+                {"triangles", to.triangle_count},
+                {"analysed", analysed}});
+  if (!options.prints_text()) return;
+  std::cout << options.out << ": the closed surface round " << options.in << ", " << to.triangle_count
+            << " triangles; the mesh is analysed " << (from.is_wrapped ? "so" : "as it is, not so") << "\n";
+}
+
 void convert(const Options& options) {
+  if (is_gltf(options.in) && is_gltf(options.out)) return convert_to_wrap(options);
   const LandmarkFormat target = landmark_format_of(options.out);
   check_output_folder(options.out);
   const LandmarkFile file = read_landmark_file(options.in);
@@ -33,14 +57,16 @@ void convert(const Options& options) {
 }  // namespace
 
 void add_convert(CLI::App& app) {
-  CLI::App* verb = app.add_subcommand(
-      "convert",
-      "Convert landmark files: .landmarks.json, 3D Slicer's .mrk.json and .fcsv, .csv, MeshLab's .pp");
+  CLI::App* verb = app.add_subcommand("convert",
+                                      "Convert landmark files: .landmarks.json, 3D Slicer's .mrk.json and "
+                                      ".fcsv, .csv, MeshLab's .pp; or write the "
+                                      "closed surface round a mesh: CHARACTER.glb WRAP.glb");
   const auto options = std::make_shared<Options>();
-  verb->add_option("IN", options->in, "Landmark file to read")->type_name("")->required();
-  verb->add_option("OUT", options->out, "Landmark file to write; its ending chooses the format")
+  verb->add_option("IN", options->in, "Landmark file or mesh to read")->type_name("")->required();
+  verb->add_option("OUT", options->out, "File to write; its ending chooses the format")
       ->type_name("")
       ->required();
+  add_mesh_options(*verb, *options);
   add_common_options(*verb, *options);
   verb->callback([options] { convert(*options); });
 }

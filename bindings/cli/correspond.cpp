@@ -56,8 +56,8 @@ void correspond(const Options& options) {
   const Context context = make_context(options);
   Progress progress(options.quiet);
   const auto model = owned<Model>(focal_model_load, context.get(), options.model.c_str());
-  const Mesh from = load_mesh(context.get(), options.from, options.lenient),
-             to = load_mesh(context.get(), options.to, options.lenient);
+  const Mesh from = load_mesh(context.get(), options.from, options),
+             to = load_mesh(context.get(), options.to, options);
   auto params = detect_params_of(options.quality, options);
   params.keep_votes = 0;
   const auto a = owned<Detection>(focal_model_detect, model.get(), from.get(), &params,
@@ -90,7 +90,7 @@ void add_correspond(CLI::App& app) {
   verb->add_option("-o,--output", options->output, "File to write")->type_name("OUT.json")->required();
   verb->add_flag("--dense", options->dense, "Also a point for every vertex of A");
   add_quality_option(*verb, options->quality);
-  add_lenient_option(*verb, *options);
+  add_mesh_options(*verb, *options);
   add_common_options(*verb, *options);
   verb->callback([options] { correspond(*options); });
 }

@@ -50,7 +50,7 @@ class CrossValidation {
         folds_(folds_of(names.size(), fold_count_)) {
     for (const std::string& name : names) {
       progress.begin("loading " + name, 0, steps());
-      meshes_.push_back(load_marked_mesh(context, set, name, options.lenient));
+      meshes_.push_back(load_marked_mesh(context, set, name, options));
     }
   }
 
@@ -144,7 +144,7 @@ void add_cross_validate(CLI::App& app) {
   add_subset_option(*verb, options->subset);
   add_train_options(*verb, *options);
   add_quality_option(*verb, options->quality);
-  add_lenient_option(*verb, *options);
+  add_mesh_options(*verb, *options);
   add_common_options(*verb, *options);
   verb->callback([options] { cross_validate(*options); });
 }

@@ -138,7 +138,7 @@ void detect(const Options& options) {
   const Context context = make_context(options);
   Progress progress(options.quiet);
   const auto model = owned<Model>(focal_model_load, context.get(), options.model.c_str());
-  const Mesh mesh = load_mesh(context.get(), options.mesh, options.lenient);
+  const Mesh mesh = load_mesh(context.get(), options.mesh, options);
   auto params = detect_params_of(options.quality, options);
   params.keep_votes = !options.votes.empty();
   const auto detection =
@@ -168,7 +168,7 @@ void add_detect(CLI::App& app) {
       ->type_name("OUT");
   verb->add_option("--votes", options->votes, "Vote maps to write, as vertex colours")->type_name("OUT.glb");
   add_quality_option(*verb, options->quality);
-  add_lenient_option(*verb, *options);
+  add_mesh_options(*verb, *options);
   add_common_options(*verb, *options);
   verb->callback([options] { detect(*options); });
 }

@@ -39,7 +39,7 @@ std::vector<MeshOutcome> outcomes_of(const focal_context* context, const focal_m
   std::vector<MeshOutcome> outcomes;
   for (size_t i = 0; i < names.size(); ++i) {
     focal_task* task = progress.begin(names[i], i, names.size());
-    const MarkedMesh mesh = load_marked_mesh(context, set, names[i], options.lenient);
+    const MarkedMesh mesh = load_marked_mesh(context, set, names[i], options);
     const TimedDetection found = detect_on(model, mesh, params, task);
     outcomes.push_back(outcome_of(found, mesh, set, counted));
     if (page) page->add(mesh, found, outcomes.back());
@@ -111,7 +111,7 @@ void add_eval(CLI::App& app) {
                    "Page to write: meshes to turn with marks and vote maps, tables, curves; opens offline")
       ->type_name("OUT.html");
   add_quality_option(*verb, options->quality);
-  add_lenient_option(*verb, *options);
+  add_mesh_options(*verb, *options);
   add_common_options(*verb, *options);
   verb->callback([options] { evaluate(*options); });
 }

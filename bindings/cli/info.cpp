@@ -58,6 +58,7 @@ Json mesh_json(const focal_mesh* mesh, const std::string& path) {
           {"file", path},
           {"vertices", info.vertex_count},
           {"triangles", info.triangle_count},
+          {"analysed", info.is_wrapped ? "wrapped" : "as-is"},
           {"surface_vertices", info.surface_vertex_count},
           {"surface_triangles", info.surface_triangle_count},
           {"mean_edge_length", info.mean_edge_length},
@@ -98,7 +99,7 @@ void info(const Options& options) {
   const Context context = make_context(options);
   const Json report =
       is_mesh(options.file)
-          ? mesh_json(load_mesh(context.get(), options.file, options.lenient).get(), options.file)
+          ? mesh_json(load_mesh(context.get(), options.file, options).get(), options.file)
           : model_json(owned<Model>(focal_model_load, context.get(), options.file.c_str()).get(),
                        options.file);
   if (options.json) print_json(report);
@@ -111,7 +112,7 @@ void add_info(CLI::App& app) {
   CLI::App* verb = app.add_subcommand("info", "Show what is in a model or a mesh");
   const auto options = std::make_shared<Options>();
   verb->add_option("FILE", options->file, "Model file, .glb or .gltf")->type_name("")->required();
-  add_lenient_option(*verb, *options);
+  add_mesh_options(*verb, *options);
   add_common_options(*verb, *options);
   verb->callback([options] { info(*options); });
 }

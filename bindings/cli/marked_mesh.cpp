@@ -70,9 +70,10 @@ focal_surface_point nearest_point(const focal_mesh* mesh, const Position& p) {
 
 }  // namespace
 
-Mesh load_mesh(const focal_context* context, const std::string& path, bool lenient) {
+Mesh load_mesh(const focal_context* context, const std::string& path, const MeshOptions& how) {
   auto params = initialised(focal_mesh_params_init);
-  params.lenient = lenient;
+  params.lenient = how.lenient;
+  params.surface = how.surface;
   params.allow_external_files = 1;  // whoever names a .gltf means the files beside it too
   return owned<Mesh>(focal_mesh_load_gltf, context, path.c_str(), &params);
 }
@@ -104,10 +105,10 @@ focal_surface_point place_of(const focal_mesh* mesh, const Landmark& mark) {
 }
 
 MarkedMesh load_marked_mesh(const focal_context* context, const SetFolder& set, const std::string& name,
-                            bool lenient) {
+                            const MeshOptions& how) {
   const auto marks = set.marks(name);
   const auto start = std::chrono::steady_clock::now();
-  MarkedMesh loaded{name, load_mesh(context, set.mesh_path(name), lenient), {}, 0};
+  MarkedMesh loaded{name, load_mesh(context, set.mesh_path(name), how), {}, 0};
   loaded.load_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   for (const auto& [landmark, mark] : marks) {
     try {

@@ -6,6 +6,7 @@
 
 #include "evaluate.h"
 #include "handles.h"
+#include "options.h"
 #include "set_folder.h"
 
 namespace focal_cli {
@@ -17,7 +18,7 @@ struct MarkedMesh {
   double load_seconds = 0;                           // of the mesh, as waited for
 };
 
-Mesh load_mesh(const focal_context* context, const std::string& path, bool lenient);
+Mesh load_mesh(const focal_context* context, const std::string& path, const MeshOptions& how);
 focal_mesh_info info_of(const focal_mesh* mesh);
 Position position_of(const focal_mesh* mesh, const focal_surface_point& point);
 
@@ -25,7 +26,7 @@ Position position_of(const focal_mesh* mesh, const focal_surface_point& point);
 focal_surface_point place_of(const focal_mesh* mesh, const Landmark& mark);
 
 MarkedMesh load_marked_mesh(const focal_context* context, const SetFolder& set, const std::string& name,
-                            bool lenient);
+                            const MeshOptions& how);
 
 // The meshes as a training set for all landmarks of the set.
 TrainingSet training_set_of(const focal_context* context, const SetFolder& set,

@@ -16,10 +16,21 @@ void add_choice(CLI::App& verb, const std::string& name, int32_t& value, const s
   verb.add_option(name, value, help)->type_name(words)->transform(CLI::Validator(number_of_word, ""));
 }
 
-void add_lenient_option(CLI::App& verb, CommonOptions& options) {
+void add_lenient_option(CLI::App& verb, MeshOptions& options) {
   verb.add_flag("--lenient", options.lenient,
                 "Leave out triangles with NaN or infinite positions or indices out of range, instead of "
                 "refusing the mesh");
+}
+
+void add_mesh_options(CLI::App& verb, MeshOptions& options) {
+  add_lenient_option(verb, options);
+  add_choice(
+      verb, "--surface", options.surface,
+      "What is analysed: the mesh as it is, or one closed surface round all of its parts; auto: wrapped "
+      "where it has "
+      "several parts",
+      "auto|as-is|wrapped",
+      {{"auto", FOCAL_SURFACE_AUTO}, {"as-is", FOCAL_SURFACE_AS_IS}, {"wrapped", FOCAL_SURFACE_WRAPPED}});
 }
 
 void add_common_options(CLI::App& verb, CommonOptions& options) {

@@ -10,8 +10,14 @@
 
 namespace focal_cli {
 
-struct CommonOptions {
-  bool json = false, lenient = false;
+// How meshes are read.
+struct MeshOptions {
+  bool lenient = false;
+  focal_surface surface = FOCAL_SURFACE_AUTO;
+};
+
+struct CommonOptions : MeshOptions {
+  bool json = false;
   bool quiet = false;
   int32_t threads = 0;
   uint64_t memory_budget = 0;  // bytes; 0: none
@@ -25,8 +31,9 @@ struct CommonOptions {
 void add_choice(CLI::App& verb, const std::string& name, int32_t& value, const std::string& help,
                 const std::string& words, const std::map<std::string, int32_t>& choices);
 
-// --lenient, for the verbs that load a mesh.
-void add_lenient_option(CLI::App& verb, CommonOptions& options);
+// For the verbs that read meshes: --lenient, and with add_mesh_options also --surface.
+void add_lenient_option(CLI::App& verb, MeshOptions& options);
+void add_mesh_options(CLI::App& verb, MeshOptions& options);
 void add_common_options(CLI::App& verb, CommonOptions& options);
 
 // Says on stderr when the backend that was asked for could not be had.

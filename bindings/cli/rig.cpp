@@ -13,13 +13,14 @@
 #include "parameters.h"
 #include "progress.h"
 #include "text_table.h"
+#include "verdict_text.h"
 
 namespace focal_cli {
 namespace {
 
 struct Options : CommonOptions {
   std::string model, mesh, output, names, animations, skeleton_template;
-  bool rest_pose = false, symmetric = false;
+  bool rest_pose = false, symmetric = false, keep_failed = false;
   focal_quality quality = FOCAL_QUALITY_BEST;
 };
 
@@ -83,8 +84,12 @@ Skeleton skeleton_of(const Options& options, const focal_model* model, const foc
   return owned<Skeleton>(focal_skeleton_create, detection, &params, task);
 }
 
-Json report_of(const focal_skeleton* skeleton, const focal_detection* detection, const Options& options,
-               double seconds) {
+bool writes(const RigVerdict& verdict, const Options& options) {
+  return !verdict.failed() || options.keep_failed;
+}
+
+Json report_of(const focal_skeleton* skeleton, const focal_detection* detection, const RigVerdict& verdict,
+               const Options& options, double seconds) {
   auto info = initialised(focal_skeleton_info_init);
   check(focal_skeleton_get_info(skeleton, &info));
   auto found = initialised(focal_detection_info_init);
@@ -104,17 +109,20 @@ Json report_of(const focal_skeleton* skeleton, const focal_detection* detection,
   for (uint32_t i = 0; i < found.warning_count; ++i)
     warnings.push_back(focal_detection_warning(detection, i));
   for (uint32_t i = 0; i < info.warning_count; ++i) warnings.push_back(focal_skeleton_warning(skeleton, i));
-  return {{"mesh", options.mesh},
-          {"output", options.output},
-          {"joints", list},
-          {"weights",
-           {{"max_influences", info.max_influences}, {"unweighted_vertices", info.unweighted_vertices}}},
-          {"category_fit", found.category_fit},
-          {"warnings", warnings},
-          {"seconds", seconds}};
+  Json report = {{"mesh", options.mesh}, {"output", Json()}};
+  if (writes(verdict, options)) report["output"] = options.output;
+  add_verdict(report, verdict);
+  report.update(
+      {{"joints", list},
+       {"weights",
+        {{"max_influences", info.max_influences}, {"unweighted_vertices", info.unweighted_vertices}}},
+       {"category_fit", found.category_fit},
+       {"warnings", warnings},
+       {"seconds", seconds}});
+  return report;
 }
 
-void print_rig(const Json& report) {
+void print_rig(const Json& report, const RigVerdict& verdict) {
   std::vector<std::vector<std::string>> rows = {{"joint", "parent", "x", "y", "z", "confidence"}};
   for (const Json& joint : report["joints"]) {
     std::vector<std::string> row = {joint["name"],
@@ -125,8 +133,11 @@ void print_rig(const Json& report) {
     rows.push_back(std::move(row));
   }
   print_table(std::cout, rows);
-  std::cout << "\n"
-            << report["output"].get<std::string>() << " in " << fixed_text(report["seconds"].get<double>(), 2)
+  std::cout << "\nverdict: " << verdict_text(verdict) << "\n";
+  if (!verdict.failed() && !verdict_hint(verdict).empty())
+    std::cout << "hint: " << verdict_hint(verdict) << "\n";
+  std::cout << (report["output"].is_null() ? "no file written" : report["output"].get<std::string>())
+            << " in " << fixed_text(report["seconds"].get<double>(), 2)
             << " s; fits the category: " << percent_text(report["category_fit"].get<double>(), 0) << "\n";
 }
 
@@ -141,24 +152,30 @@ void rig(const Options& options) {
         "the model knows no skeleton",
         "train one on rigged characters: focal train --rigs A.glb -o MODEL; or describe one over its "
         "landmarks: --template FILE.json");
-  const Mesh mesh = load_mesh(context.get(), options.mesh, options.lenient);
+  const Mesh mesh = load_mesh(context.get(), options.mesh, options);
   auto params = detect_params_of(options.quality, options);
   params.keep_votes = 0;
   const auto detection = owned<Detection>(focal_model_detect, model.get(), mesh.get(), &params,
                                           progress.begin("detecting", 0, 2));
   const Mesh animations =
-      options.animations.empty() ? nullptr : load_mesh(context.get(), options.animations, options.lenient);
+      options.animations.empty() ? nullptr : load_mesh(context.get(), options.animations, options);
   const Skeleton skeleton =
       skeleton_of(options, model.get(), detection.get(), animations.get(), progress.begin("rigging", 1, 2));
-  check(focal_skeleton_write_gltf(skeleton.get(), options.output.c_str()));
+  const RigVerdict verdict = verdict_of(skeleton.get(), detection.get());
+  if (writes(verdict, options)) check(focal_skeleton_write_gltf(skeleton.get(), options.output.c_str()));
   progress.clear();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const Json report = report_of(skeleton.get(), detection.get(), options, seconds);
+  const Json report = report_of(skeleton.get(), detection.get(), verdict, options, seconds);
   if (options.json) print_json(report);
-  if (!options.prints_text()) return;
-  print_rig(report);
-  for (const Json& warning : report["warnings"])
-    std::cerr << "warning: " << warning.get<std::string>() << "\n";
+  if (options.prints_text()) {
+    print_rig(report, verdict);
+    for (const Json& warning : report["warnings"])
+      std::cerr << "warning: " << warning.get<std::string>() << "\n";
+  }
+  if (verdict.failed())
+    throw CommandError("the rig of " + options.mesh + " failed (quality " + percent_text(verdict.quality, 0) +
+                           ")" + (options.keep_failed ? "" : "; no file is written without --keep-failed"),
+                       verdict_hint(verdict));
 }
 
 }  // namespace
@@ -188,11 +205,13 @@ void add_rig(CLI::App& app) {
   verb->add_flag("--rest-pose", options->rest_pose,
                  "Show the mesh in the rest pose (T or A) of the first character that taught the model, by "
                  "its new joints");
+  verb->add_flag("--keep-failed", options->keep_failed,
+                 "Write the file even where the verdict is 'failed'; the exit status is 1 all the same");
   verb->add_option("--animations", options->animations,
                    "Rigged character whose animations go into the file too, retargeted")
       ->type_name("CHARACTER.glb");
   add_quality_option(*verb, options->quality);
-  add_lenient_option(*verb, *options);
+  add_mesh_options(*verb, *options);
   add_common_options(*verb, *options);
   verb->callback([options] { rig(*options); });
 }

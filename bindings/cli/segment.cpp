@@ -31,7 +31,7 @@ void segment(const Options& options) {
   const Context context = make_context(options);
   Progress progress(options.quiet);
   const auto model = owned<Model>(focal_model_load, context.get(), options.model.c_str());
-  const Mesh mesh = load_mesh(context.get(), options.mesh, options.lenient);
+  const Mesh mesh = load_mesh(context.get(), options.mesh, options);
   auto params = detect_params_of(options.quality, options);
   params.keep_votes = 0;
   const auto detection = owned<Detection>(focal_model_detect, model.get(), mesh.get(), &params,
@@ -82,7 +82,7 @@ void add_segment(CLI::App& app) {
               {"geodesic", FOCAL_SEGMENTATION_GEODESIC},
               {"k-means", FOCAL_SEGMENTATION_K_MEANS}});
   add_quality_option(*verb, options->quality);
-  add_lenient_option(*verb, *options);
+  add_mesh_options(*verb, *options);
   add_common_options(*verb, *options);
   verb->callback([options] { segment(*options); });
 }

@@ -20,11 +20,12 @@ struct Options : CommonOptions, TrainOptions {
 };
 
 std::vector<MarkedMesh> load_all(const focal_context* context, const SetFolder& set,
-                                 const std::vector<std::string>& names, bool lenient, Progress& progress) {
+                                 const std::vector<std::string>& names, const MeshOptions& how,
+                                 Progress& progress) {
   std::vector<MarkedMesh> meshes;
   for (const std::string& name : names) {
     progress.begin("loading " + name);
-    meshes.push_back(load_marked_mesh(context, set, name, lenient));
+    meshes.push_back(load_marked_mesh(context, set, name, how));
   }
   return meshes;
 }
@@ -46,6 +47,15 @@ Json report_of(const Options& options, const SetFolder& set, const std::vector<s
           {"backend", backend_name(focal_context_backend(context))}};
 }
 
+// What the library finds odd about the characters, in sentences; throws where they cannot teach.
+Json odd_rigs(focal_training_set* training_set) {
+  check(focal_training_set_check(training_set));
+  Json warnings = Json::array();
+  for (uint32_t i = 0; i < focal_training_set_warning_count(training_set); ++i)
+    warnings.push_back(focal_training_set_warning(training_set, i));
+  return warnings;
+}
+
 // Landmarks follow from the skeletons; nothing has to be marked.
 void train_on_rigs(const Options& options) {
   const auto start = std::chrono::steady_clock::now();
@@ -56,9 +66,13 @@ void train_on_rigs(const Options& options) {
                                                static_cast<const char* const*>(nullptr), uint64_t{0});
   for (const std::string& path : options.rigs) {
     progress.begin("loading " + path);
-    const Mesh mesh = load_mesh(context.get(), path, options.lenient);
+    const Mesh mesh = load_mesh(context.get(), path, options);
     check(focal_training_set_add_rig(training_set.get(), mesh.get()), path + ": ");
   }
+  progress.clear();
+  const Json warnings = odd_rigs(training_set.get());  // before the long work
+  if (options.prints_text())
+    for (const Json& warning : warnings) std::cerr << "warning: " << warning.get<std::string>() << "\n";
   const focal_train_params params = train_params_of(options, options);
   const auto model = owned<Model>(focal_model_train, training_set.get(), &params, progress.begin("training"));
   check(focal_model_save(model.get(), options.output.c_str()));
@@ -70,6 +84,7 @@ void train_on_rigs(const Options& options) {
   if (options.json)
     print_json({{"model", options.output},
                 {"rigs", options.rigs},
+                {"warnings", warnings},
                 {"joints", joints},
                 {"landmarks", landmark_names_of(model.get())},
                 {"shapes", info.shape_count},
@@ -94,7 +109,7 @@ void train(const Options& options) {
   check_output_folder(options.output);
   const Context context = make_context(options);
   Progress progress(options.quiet);
-  const std::vector<MarkedMesh> meshes = load_all(context.get(), set, names, options.lenient, progress);
+  const std::vector<MarkedMesh> meshes = load_all(context.get(), set, names, options, progress);
   std::vector<const MarkedMesh*> pointers;
   for (const MarkedMesh& mesh : meshes) pointers.push_back(&mesh);
   const TrainingSet training_set = training_set_of(context.get(), set, pointers);
@@ -128,7 +143,7 @@ void add_train(CLI::App& app) {
   verb->add_option("-o,--output", options->output, "Model file to write")->type_name("MODEL")->required();
   add_split_options(*verb, options->split, options->limit, "Meshes to learn from");
   add_train_options(*verb, *options);
-  add_lenient_option(*verb, *options);
+  add_mesh_options(*verb, *options);
   add_common_options(*verb, *options);
   verb->callback([options] { train(*options); });
 }

@@ -275,7 +275,7 @@ typedef struct focal_mesh_info {
   /* 0: so much of the surface has only one side (as a Moebius strip) that its triangles cannot be turned to
      face one way; detection then tells left from right by distances alone */
   int32_t is_oriented;
-  uint32_t reserved;
+  int32_t is_wrapped; /* 1: one closed surface round the mesh is analysed, see focal_surface. Was reserved */
 } focal_mesh_info;
 
 FOCAL_API focal_status focal_mesh_info_init(focal_mesh_info* info, size_t struct_size);
@@ -286,6 +286,11 @@ FOCAL_API const uint32_t* focal_mesh_triangles(const focal_mesh* mesh); /* trian
 
 /* A plain sentence on what was found and done; index below warning_count. */
 FOCAL_API const char* focal_mesh_warning(const focal_mesh* mesh, uint32_t index);
+
+/* Writes a .glb of the closed surface round the mesh, to look at: what is analysed of a mesh that is_wrapped, and what
+ * FOCAL_SURFACE_WRAPPED would analyse of another. It lies where the mesh lies, in its units. Runs on one thread. Errors:
+ * INVALID_ARGUMENT (a path that ends in .gltf), INVALID_MESH, IO, FILE_NOT_FOUND (no such folder). */
+FOCAL_API focal_status focal_mesh_write_wrap_gltf(const focal_mesh* mesh, const char* path);
 
 /* Where a surface point lies (out_position: 3 floats), and the surface point at a vertex. Errors:
  * INVALID_LANDMARK when the triangle or vertex does not exist, or no triangle uses the vertex. */
@@ -377,6 +382,15 @@ FOCAL_API focal_status focal_training_set_add_vertices(focal_training_set* set, 
  * those of at least half of the characters are learned. Errors: INVALID_ARGUMENT (a set with landmark
  * names; no file kept; no skin; no vertex that a joint moves), INVALID_FILE. */
 FOCAL_API focal_status focal_training_set_add_rig(focal_training_set* set, const focal_mesh* mesh);
+
+/* What is odd about the set of rigged characters, looked at anew with each call of focal_training_set_check: joints that
+ * some of them lack, prefixes of names that were put aside, weights that are no numbers, joints all in one place. Plain
+ * sentences that number the characters from 1, in the order in which they were added. focal_model_train checks too, and gives
+ * the sentences to the context's log. Errors of the check: INVALID_ARGUMENT (no character; characters that share fewer than half of
+ * their joints; a character that nothing can be learned from). For a set with landmark names there is nothing to say. */
+FOCAL_API focal_status focal_training_set_check(focal_training_set* set);
+FOCAL_API uint32_t focal_training_set_warning_count(const focal_training_set* set); /* of the last check */
+FOCAL_API const char* focal_training_set_warning(const focal_training_set* set, uint32_t index);
 
 FOCAL_API uint64_t focal_training_set_landmark_count(const focal_training_set* set);
 FOCAL_API uint64_t focal_training_set_mesh_count(const focal_training_set* set);
@@ -726,6 +740,14 @@ FOCAL_API focal_status focal_skeleton_create(const focal_detection* detection,
                                              focal_skeleton** out_skeleton);
 FOCAL_API focal_status focal_skeleton_destroy(focal_skeleton* skeleton);
 
+/* Whether the skeleton can be used as it is. Warnings of a skeleton that is not GOOD say what speaks against it. */
+typedef int32_t focal_verdict;
+enum {
+  FOCAL_VERDICT_GOOD = 0,
+  FOCAL_VERDICT_CHECK = 1, /* to be looked at: some of its joints may lie wrong */
+  FOCAL_VERDICT_FAILED = 2 /* not to be used: the mesh is of another kind, or the skeleton is crumpled */
+};
+
 typedef struct focal_skeleton_info {
   uint32_t struct_size;
   uint32_t joint_count;
@@ -733,6 +755,9 @@ typedef struct focal_skeleton_info {
   uint32_t max_influences;      /* of one vertex; at most 4 */
   uint64_t vertex_count;        /* of the caller's mesh */
   uint64_t unweighted_vertices; /* those that no triangle uses */
+  double quality;               /* 0..1: what the verdict follows from */
+  focal_verdict verdict;
+  uint32_t guessed_joints; /* those without a landmark that was found: the rest of the body places them */
 } focal_skeleton_info;
 
 FOCAL_API focal_status focal_skeleton_info_init(focal_skeleton_info* info, size_t struct_size);

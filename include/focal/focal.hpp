@@ -112,6 +112,10 @@ class Mesh : public Owner<focal_mesh, focal_mesh_destroy> {
       result.emplace_back(focal_mesh_warning(handle_, i));
     return result;
   }
+  // The closed surface round it, as a .glb to look at.
+  void write_wrap_gltf(const std::string& path) const {
+    check(focal_mesh_write_wrap_gltf(handle_, path.c_str()));
+  }
   focal_surface_point point_at_vertex(uint32_t vertex) const {
     focal_surface_point point{};
     check(focal_mesh_point_at_vertex(handle_, vertex, &point));

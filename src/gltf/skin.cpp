@@ -88,7 +88,8 @@ void add_joints(const json& root, GltfBuffers& buffers, const json& skin, const 
 
 // JOINTS_n and WEIGHTS_n of one primitive, for all n.
 void read_influences(const json& root, GltfBuffers& buffers, const json& skin, const GltfPrimitive& range,
-                     const Skeleton& skeleton, std::vector<VertexInfluences>& influences) {
+                     const Skeleton& skeleton, std::vector<VertexInfluences>& influences,
+                     int64_t& invalid_weights) {
   const json& primitive = list(
       root, "meshes")[static_cast<size_t>(range.mesh)]["primitives"][static_cast<size_t>(range.primitive)];
   const json& attributes = primitive["attributes"];
@@ -106,7 +107,9 @@ void read_influences(const json& root, GltfBuffers& buffers, const json& skin, c
                   "export the file again");
     for (int32_t v = 0; v < range.vertex_count; ++v)
       for (int i = 0; i < 4; ++i) {
-        if (!(W(v, i) > 0)) continue;
+        const bool valid = W(v, i) >= 0 && std::isfinite(W(v, i));
+        invalid_weights += !valid;
+        if (!valid || W(v, i) == 0) continue;
         if (!(J(v, i) >= 0 && J(v, i) < static_cast<double>(joints.size())))
           throw Error(Status::invalid_file,
                       "vertex " + std::to_string(v) + " of mesh " + std::to_string(range.mesh) +
@@ -123,7 +126,8 @@ void read_influences(const json& root, GltfBuffers& buffers, const json& skin, c
 }  // namespace
 
 std::optional<Rig> read_gltf_rig(std::span<const std::byte> bytes, std::span<const GltfPrimitive> primitives,
-                                 const GltfLimits& limits, std::optional<std::filesystem::path> folder) {
+                                 const GltfLimits& limits, std::optional<std::filesystem::path> folder,
+                                 int64_t* invalid_weights) {
   const GltfContainer container = open_container(bytes, limits);
   const JsonDocument document = parse_gltf(container, limits);
   const json& root = document.root();
@@ -141,9 +145,11 @@ std::optional<Rig> read_gltf_rig(std::span<const std::byte> bytes, std::span<con
   }
   if (!any) return std::nullopt;
   Rig rig{skeleton.joints(), std::vector<VertexInfluences>(vertices)};
+  int64_t invalid = 0;
   for (const GltfPrimitive& primitive : primitives)
     if (const json* skin = skin_of(root, primitive))
-      read_influences(root, buffers, *skin, primitive, skeleton, rig.influences);
+      read_influences(root, buffers, *skin, primitive, skeleton, rig.influences, invalid);
+  if (invalid_weights) *invalid_weights = invalid;
   return rig;
 }
 

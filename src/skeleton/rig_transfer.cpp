@@ -11,6 +11,7 @@
 #include "mesh/similarity.h"
 #include "skeleton/rig_landmarks.h"
 #include "skeleton/twist.h"
+#include "skeleton/verdict.h"
 
 namespace focal {
 namespace {
@@ -211,17 +212,20 @@ std::vector<Matrix4> rest_pose(const LandmarkModel& model, const std::vector<Joi
   return rest;
 }
 
-// A joint whose own landmarks are all absent lies where the rest of the body suggests it.
+// A joint whose own landmarks are all absent lies where the rest of the body suggests it. One sentence for all of them.
 void warn_of_absent(const Detection& detection, std::vector<std::string>& warnings) {
-  for (const SkeletonJoint& joint : detection.model->skeleton) {
-    int32_t own = 0, absent = 0;
-    for (size_t l = 0; l < detection.places.size(); ++l)
-      if (detection.model->landmark_names[l].starts_with(joint.name + " "))
-        ++own, absent += detection.places[l].triangle < 0;
-    if (own > 0 && absent == own)
-      warnings.push_back("joint '" + joint.name +
-                         "': none of its landmarks was found on this mesh, its place is a guess");
-  }
+  constexpr size_t most_named = 3;
+  const std::vector<std::string> joints = guessed_joints(detection);
+  if (joints.empty()) return;
+  std::string names;
+  for (size_t i = 0; i < std::min(joints.size(), most_named); ++i)
+    names += (i ? ", '" : "'") + joints[i] + "'";
+  if (joints.size() > most_named) names += ", ...";
+  warnings.push_back(
+      joints.size() == 1
+          ? "joint " + names + ": none of its landmarks was found on this mesh, its place is a guess"
+          : std::to_string(joints.size()) + " joints (" + names +
+                "): none of their landmarks was found on this mesh, each of their places is a guess");
 }
 
 // vertices of the analysed surface x joints: the mean over the shapes of the weights at the nearest point of each.

@@ -9,22 +9,13 @@
 #include "mesh/closest_point.h"
 #include "mesh/similarity.h"
 #include "skeleton/rig_landmarks.h"
+#include "skeleton/teachers.h"
 
 namespace focal {
 namespace {
 
 // Rotations of joints, radians, and scales: a spread that makes limbs bend clearly and bodies differ as people do.
 constexpr double pose_deviation = 0.35, most_turned = 0.9, size_deviation = 0.1, breadth_deviation = 0.08;
-
-// How much each joint of a character moves, over all vertices, its descendants' share included.
-std::vector<double> weight_below(const Rig& rig) {
-  std::vector<double> sum(rig.joints.size(), 0);
-  for (const auto& influences : rig.influences)
-    for (const Influence& one : influences) sum[one.joint] += one.weight;
-  for (size_t j = rig.joints.size(); j-- > 0;)
-    if (rig.joints[j].parent >= 0) sum[rig.joints[j].parent] += sum[j];
-  return sum;
-}
 
 int32_t index_of(const std::vector<SkeletonJoint>& skeleton, const std::string& name) {
   for (size_t j = 0; j < skeleton.size(); ++j)
@@ -188,8 +179,10 @@ MarkedShape posed(const MarkedShape& shape, const std::vector<SkeletonJoint>& sk
 }  // namespace
 
 TrainingSet training_set_of(const std::vector<RiggedMesh>& given, const RiggedShapesParams& params,
-                            const Execution& execution) {
+                            const Execution& execution, std::vector<std::string>* warnings) {
   std::vector<RiggedMesh> characters = given;
+  std::vector<std::string> odd = match_teachers(characters);
+  if (warnings) *warnings = std::move(odd);
   for (RiggedMesh& character : characters)
     if (character.mesh->is_wrapped) character = wrapped(character, execution);
   if (characters.empty())

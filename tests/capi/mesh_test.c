@@ -147,7 +147,7 @@ static void check_flipped(shape* body) {
   const focal_mesh_info sound = info_of(mesh);
   CHECK(sound.flipped_triangles == 0 && sound.nonmanifold_edges == 0 && sound.nonmanifold_vertices == 0);
   CHECK(sound.boundary_loops == 0 && sound.degenerate_triangles == 0 && sound.invalid_triangles == 0);
-  CHECK(sound.component_count == 1 && sound.is_oriented == 1 && sound.reserved == 0);
+  CHECK(sound.component_count == 1 && sound.is_oriented == 1 && sound.is_wrapped == 0);
   focal_mesh_destroy(mesh);
   point.barycentric[1] = 0.4f, point.barycentric[2] = 0.1f;
   for (int i = 0; i < 3; ++i)
@@ -342,6 +342,44 @@ static void check_path(shape* body) {
   free(glb);
 }
 
+/* One part is analysed as it is, unless asked otherwise; either way the wrap can be looked at. */
+static void check_wrap(const shape* body) {
+  focal_mesh *as_is = NULL, *wrapped = NULL, *shown = NULL;
+  focal_mesh_params params;
+  const focal_mesh_desc desc = shape_desc(body);
+  CHECK_OK(focal_mesh_params_init(&params, sizeof params));
+  CHECK_OK(focal_mesh_create(context, &desc, &params, &as_is));
+  params.surface = FOCAL_SURFACE_WRAPPED;
+  CHECK_OK(focal_mesh_create(context, &desc, &params, &wrapped));
+  focal_mesh_info info;
+  CHECK_OK(focal_mesh_info_init(&info, sizeof info));
+  CHECK_OK(focal_mesh_get_info(as_is, &info));
+  CHECK(info.is_wrapped == 0);
+  CHECK_OK(focal_mesh_get_info(wrapped, &info));
+  CHECK(info.is_wrapped == 1);
+  CHECK_REFUSED(focal_mesh_write_wrap_gltf(as_is, "wrap_test.gltf"), FOCAL_ERROR_INVALID_ARGUMENT,
+                "ends in .gltf");
+  CHECK_REFUSED(focal_mesh_write_wrap_gltf(as_is, "none/wrap_test.glb"), FOCAL_ERROR_FILE_NOT_FOUND, "none");
+  CHECK_REFUSED(focal_mesh_write_wrap_gltf(NULL, "wrap_test.glb"), FOCAL_ERROR_INVALID_HANDLE, "is NULL");
+  CHECK_OK(focal_mesh_write_wrap_gltf(wrapped, "wrap_test.glb"));
+  CHECK_OK(focal_mesh_load_gltf(context, "wrap_test.glb", NULL, &shown));
+  CHECK_OK(focal_mesh_get_info(shown, &info));
+  CHECK(info.component_count == 1 && info.boundary_loops == 0);
+  float low[2] = {9, 9}, high[2] = {-9, -9}; /* it lies where the mesh lies, about a cell of the grid apart */
+  focal_mesh* const both[2] = {wrapped, shown};
+  for (int i = 0; i < 2; ++i) {
+    CHECK_OK(focal_mesh_get_info(both[i], &info));
+    const float* positions = focal_mesh_positions(both[i]);
+    for (uint64_t v = 0; v < info.vertex_count; ++v) {
+      if (positions[3 * v] < low[i]) low[i] = positions[3 * v];
+      if (positions[3 * v] > high[i]) high[i] = positions[3 * v];
+    }
+  }
+  CHECK(fabsf(low[0] - low[1]) < 0.05f && fabsf(high[0] - high[1]) < 0.05f);
+  remove("wrap_test.glb");
+  focal_mesh_destroy(as_is), focal_mesh_destroy(wrapped), focal_mesh_destroy(shown);
+}
+
 int main(void) {
   shape body = shape_create(8, 0);
   CHECK_OK(focal_context_create(NULL, &context));
@@ -354,6 +392,7 @@ int main(void) {
   check_limits(&body);
   check_pose();
   check_path(&body);
+  check_wrap(&body);
   check_gltf(&body);
   shape_destroy(&body);
   focal_context_destroy(context);

@@ -162,6 +162,26 @@ static void check_weights(const focal_skeleton* skeleton, uint32_t joints) {
                 "joints, there is no number");
 }
 
+/* As a caller of the first release sees it, and as one of this release does. */
+static void check_verdict(const focal_skeleton* skeleton) {
+  focal_skeleton_info info;
+  CHECK_OK(focal_skeleton_info_init(&info, sizeof info));
+  CHECK_OK(focal_skeleton_get_info(skeleton, &info));
+  CHECK(info.verdict >= FOCAL_VERDICT_GOOD && info.verdict <= FOCAL_VERDICT_FAILED);
+  CHECK(info.quality >= 0 && info.quality <= 1 && info.guessed_joints <= info.joint_count);
+  if (info.verdict != FOCAL_VERDICT_GOOD) { /* then a warning says why */
+    int said = 0;
+    for (uint32_t i = 0; i < info.warning_count; ++i)
+      said |= strstr(focal_skeleton_warning(skeleton, i), "the rig ") != NULL;
+    CHECK(said);
+  }
+  memset(&info, 0x55, sizeof info);
+  CHECK_REFUSED(focal_skeleton_info_init(&info, 31), FOCAL_ERROR_INVALID_ARGUMENT, "struct_size is 31");
+  CHECK_OK(focal_skeleton_info_init(&info, 32));
+  CHECK_OK(focal_skeleton_get_info(skeleton, &info));
+  CHECK(info.struct_size == 32 && info.joint_count > 0 && info.verdict == 0x55555555);
+}
+
 /* Written with the mesh it can be learned from as any character. */
 static void check_written(const focal_skeleton* skeleton) {
   focal_mesh* mesh = NULL;
@@ -190,6 +210,7 @@ static void check_templates(void) {
 
   CHECK_OK(by_template(detection, good_template, &skeleton));
   check_weights(skeleton, 3);
+  check_verdict(skeleton);
   check_written(skeleton);
   CHECK_OK(focal_joint_init(&joint, sizeof joint));
   CHECK_OK(focal_skeleton_get_joint(skeleton, 1, &joint));
@@ -255,6 +276,7 @@ static void check_learned(void) {
   params.animations = first;
   CHECK_OK(focal_skeleton_create(detection, &params, NULL, &skeleton));
   check_weights(skeleton, 4);
+  check_verdict(skeleton);
   check_written(skeleton);
   focal_skeleton_destroy(skeleton), skeleton = NULL;
   params.animations = arrays;

@@ -90,6 +90,67 @@ static void check_rigs(void) {
   focal_training_set_destroy(rigs), focal_training_set_destroy(marks);
 }
 
+static focal_mesh* rigged_mesh(const unsigned char* glb, size_t size) {
+  focal_mesh* mesh = NULL;
+  CHECK_OK(focal_mesh_load_gltf_memory(context, glb, size, NULL, &mesh));
+  return mesh;
+}
+
+static void replace(unsigned char* bytes, size_t size, const char* from, const char* to) {
+  for (size_t i = 0; i + strlen(from) <= size; ++i)
+    if (memcmp(bytes + i, from, strlen(from)) == 0) memcpy(bytes + i, to, strlen(from));
+}
+
+/* Three weights of the character are no weights. */
+static void spoil_weights(unsigned char* glb, size_t size) {
+  const float weights[12] = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0},
+              spoiled[12] = {NAN, 0, 0, 0, 1, -1, 0, 0, 1, INFINITY};
+  for (size_t i = 0; i + sizeof weights <= size; i += 4) {
+    if (memcmp(glb + i, weights, sizeof weights) != 0) continue;
+    memcpy(glb + i, spoiled, sizeof spoiled);
+    return;
+  }
+  CHECK(!"the file has weights");
+}
+
+/* What is odd about characters is said before any training; those of other skeletons are refused. */
+static void check_teachers(void) {
+  size_t size = 0;
+  unsigned char* glb = rigged_glb(8, 0, &size);
+  focal_mesh* sound = rigged_mesh(glb, size);
+  spoil_weights(glb, size);
+  focal_mesh* spoiled = rigged_mesh(glb, size);
+  replace(glb, size, "\"bone.", "\"limb.");
+  focal_mesh* foreign = rigged_mesh(glb, size);
+  focal_training_set *set = NULL, *marks = shape_training_set(context, 8, 1);
+  focal_model* model = NULL;
+  CHECK_OK(focal_training_set_create(context, NULL, 0, &set));
+  CHECK_REFUSED(focal_training_set_check(set), FOCAL_ERROR_INVALID_ARGUMENT, "no rigged character");
+  CHECK_REFUSED(focal_training_set_check(NULL), FOCAL_ERROR_INVALID_HANDLE, "is NULL");
+  CHECK_OK(focal_training_set_check(marks)); /* nothing to say of marks */
+  CHECK(focal_training_set_warning_count(marks) == 0);
+  CHECK_OK(focal_training_set_add_rig(set, sound));
+  CHECK_OK(focal_training_set_check(set));
+  CHECK(focal_training_set_warning_count(set) == 0 && focal_training_set_warning(set, 0) == NULL);
+  CHECK_OK(focal_training_set_add_rig(set, spoiled));
+  CHECK(focal_training_set_warning_count(set) == 0); /* until it is looked at again */
+  CHECK_OK(focal_training_set_check(set));
+  CHECK(focal_training_set_warning_count(set) == 1);
+  CHECK(strstr(focal_training_set_warning(set, 0),
+               "character 2: 3 skin weights are negative, NaN or infinite"));
+  CHECK(focal_training_set_warning(set, 1) == NULL);
+  focal_training_set_destroy(set), set = NULL;
+  CHECK_OK(focal_training_set_create(context, NULL, 0, &set));
+  CHECK_OK(focal_training_set_add_rig(set, sound));
+  CHECK_OK(focal_training_set_add_rig(set, foreign));
+  CHECK_REFUSED(focal_training_set_check(set), FOCAL_ERROR_INVALID_ARGUMENT, "share 1 of 4 joints");
+  CHECK_REFUSED(focal_model_train(set, NULL, NULL, &model), FOCAL_ERROR_INVALID_ARGUMENT, "'root'");
+  CHECK(model == NULL);
+  free(glb);
+  focal_training_set_destroy(set), focal_training_set_destroy(marks);
+  focal_mesh_destroy(sound), focal_mesh_destroy(spoiled), focal_mesh_destroy(foreign);
+}
+
 static void check_marks(void) {
   shape body = shape_create(8, 0);
   focal_mesh* mesh = shape_mesh(context, 8, 0);
@@ -136,6 +197,7 @@ int main(void) {
   check_name_count();
   check_places();
   check_rigs();
+  check_teachers();
   check_marks();
   check_one_mesh();
   focal_context_destroy(context);

@@ -1,11 +1,8 @@
 // The built command from outside: exit status, the keys of every JSON document, what bad input is answered
 // with.
-#include <doctest/doctest.h>
-#include <sys/wait.h>
+#include "command.h"
 
-#include <cstdio>
-#include <nlohmann/json.hpp>
-#include <set>
+#include <doctest/doctest.h>
 
 #include "files.h"
 #include "landmark_files.h"
@@ -13,58 +10,6 @@
 #include "tiny_set.h"
 
 namespace {
-
-using nlohmann::json;
-using Keys = std::set<std::string>;
-
-struct Run {
-  int status = -1;
-  std::string out, err;
-};
-
-// before: a program that runs the command, such as timeout.
-Run focal(const std::string& arguments, const std::string& before = "") {
-  const ScratchFolder scratch;
-  const std::string line =
-      before + " \"" FOCAL_COMMAND "\" " + arguments + " 2> '" + (scratch / "stderr") + "'";
-  std::FILE* pipe = ::popen(line.c_str(), "r");
-  REQUIRE(pipe);
-  Run run;
-  char block[4096];
-  for (size_t size; (size = std::fread(block, 1, sizeof block, pipe)) > 0;) run.out.append(block, size);
-  const int status = ::pclose(pipe);
-  run.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128;
-  run.err = focal_cli::read_text_file(scratch / "stderr");
-  return run;
-}
-
-Keys keys_of(const json& object) {
-  Keys keys;
-  for (const auto& [key, value] : object.items()) keys.insert(key);
-  return keys;
-}
-
-// Runs with --json: done, one document on stdout, nothing on stderr.
-json focal_json(const std::string& arguments) {
-  const Run run = focal(arguments + " --json");
-  CAPTURE(arguments);
-  CAPTURE(run.err);
-  REQUIRE(run.status == 0);
-  CHECK(run.err.empty());
-  return json::parse(run.out);
-}
-
-// Fails with status 1, says `words` and a hint on stderr and nothing on stdout.
-void check_fails(const std::string& arguments, const std::string& words) {
-  const Run run = focal(arguments);
-  CAPTURE(arguments);
-  CAPTURE(run.err);
-  CHECK(run.status == 1);
-  CHECK(run.out.empty());
-  CHECK(run.err.starts_with("focal: "));
-  CHECK(run.err.find(words) != std::string::npos);
-  CHECK(run.err.find("\nhint: ") != std::string::npos);
-}
 
 // A set of eggs and a model of it, made once for all tests of this file.
 struct Eggs {
@@ -140,10 +85,10 @@ TEST_CASE("doctor, info and convert: keys") {
   write_tiny_set(scratch, 1, 0);
   const json info = focal_json("info " + (scratch / "egg0.glb"));
   CHECK(keys_of(info) == Keys{"kind", "file", "vertices", "triangles", "surface_vertices",
-                              "surface_triangles", "mean_edge_length", "surface_area", "invalid_triangles",
-                              "degenerate_triangles", "flipped_triangles", "nonmanifold_edges",
-                              "nonmanifold_vertices", "boundary_loops", "components", "oriented", "seconds",
-                              "warnings"});
+                              "surface_triangles", "analysed", "mean_edge_length", "surface_area",
+                              "invalid_triangles", "degenerate_triangles", "flipped_triangles",
+                              "nonmanifold_edges", "nonmanifold_vertices", "boundary_loops", "components",
+                              "oriented", "seconds", "warnings"});
   CHECK(info["vertices"] == 2 + 19 * 26);
   CHECK(info["triangles"] == 2 * 19 * 26);
   const json converted =

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
+#include <limits>
 #include <numbers>
 
 #include "base/atomic_file.h"
@@ -280,6 +281,15 @@ TEST_CASE("what a skin lacks") {
   const auto idle = rig_of(skinned_tetrahedron(0, 0));     // joints without influence
   REQUIRE(idle.has_value());
   CHECK(idle->influences[0][0].weight == 0);
+  for (const float wrong :
+       {-0.5f, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+    const auto bytes = skinned_tetrahedron(0, wrong).glb();  // left out, and counted
+    int64_t invalid = -1;
+    const auto none = read_gltf_rig(bytes, read_gltf_memory(bytes).primitives, {}, std::nullopt, &invalid);
+    REQUIRE(none.has_value());
+    CHECK(invalid == 16);
+    CHECK(none->influences[0][0].weight == 0);
+  }
   GltfBuilder cyclic = skinned_tetrahedron();
   cyclic.root["nodes"][1]["children"] = {1};
   CHECK_THROWS_AS(rig_of(cyclic), Error);

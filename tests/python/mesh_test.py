@@ -117,7 +117,7 @@ class Refused(Case):
 
     def test_parameters(self):
         vertices, faces, _ = shape()
-        for name in ("weld", "drop_degenerate", "bridge_components", "max_vertices", "max_triangles"):
+        for name in ("weld", "drop_degenerate", "max_vertices", "max_triangles"):
             with self.assertRaisesRegex(TypeError, f"{name} must be an integer"):
                 focal.Mesh(vertices, faces, **{name: "yes"})
         with self.assertRaisesRegex(ValueError, "weld is 4294967296"):
@@ -161,6 +161,18 @@ class ByTheLibrary(Case):
 
 
 class Surface(Case):
+    def test_wrap(self):
+        vertices, faces, _ = shape(8)
+        made, path = focal.Mesh(vertices, faces, surface="wrapped"), pathlib.Path(self.folder()) / "wrap.glb"
+        self.assertEqual((made.info["is_wrapped"], focal.Mesh(vertices, faces).info["is_wrapped"]), (1, 0))
+        self.assertEqual(focal.Mesh(vertices, faces, surface=focal.Surface.AS_IS).info["is_wrapped"], 0)
+        made.write_wrap(path)
+        wrap = focal.Mesh.load(path)
+        self.assertEqual((wrap.info["component_count"], wrap.info["boundary_loops"]), (1, 0))
+        self.refused(Status.INVALID_ARGUMENT, ".gltf", made.write_wrap, "wrap.gltf")
+        with self.assertRaisesRegex(ValueError, "auto, as_is, wrapped"):
+            focal.Mesh(vertices, faces, surface="paper")
+
     def test_what_it_tells(self):
         made = mesh()
         info = made.info

@@ -48,6 +48,27 @@ class Rigs(Case):
             self.assertEqual((len(joint.position), len(joint.tip)), (3, 3))
         self.assertEqual(len(skeleton.warnings), skeleton.info["warning_count"])
 
+    def test_verdict(self):
+        skeleton = found().rig()
+        self.assertIsInstance(skeleton.verdict, focal.Verdict)
+        self.assertEqual((skeleton.verdict, skeleton.quality), (skeleton.info["verdict"], skeleton.info["quality"]))
+        self.assertTrue(0 <= skeleton.quality <= 1)
+        self.assertTrue(0 <= skeleton.info["guessed_joints"] <= skeleton.info["joint_count"])
+        self.assertNotEqual(skeleton.verdict, focal.Verdict.FAILED)
+        said = any(warning.startswith("the rig ") for warning in skeleton.warnings)
+        self.assertEqual(said, skeleton.verdict != focal.Verdict.GOOD)
+
+    def test_check(self):
+        marked, folder = focal.TrainingSet(), pathlib.Path(self.folder())
+        self.refused(Status.INVALID_ARGUMENT, "no rigged character", marked.check)
+        marked.add_rig(focal.Mesh.load(HUMANOIDS / "humanoid_00.rig.glb"))
+        self.assertEqual(marked.check(), [])
+        data = (HUMANOIDS / "humanoid_00.rig.glb").read_bytes()
+        (folder / "other.glb").write_bytes(data.replace(b'"left', b'"Left').replace(b'"right', b'"Right'))
+        marked.add_rig(focal.Mesh.load(folder / "other.glb"))
+        self.refused(Status.INVALID_ARGUMENT, "2 (other.glb) share", marked.check)
+        self.assertEqual(focal.TrainingSet(["nose"]).check(), [])
+
     def test_weights(self):
         numbers, weights = found().rig().weights
         self.assertEqual((len(numbers), len(weights)), (found().info["vertex_count"],) * 2)

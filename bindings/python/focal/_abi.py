@@ -45,6 +45,13 @@ class LogLevel(IntEnum):
     ERROR = 2
 
 
+class Surface(IntEnum):
+    """focal_surface"""
+    AUTO = 0
+    AS_IS = 1
+    WRAPPED = 2
+
+
 class Descriptor(IntEnum):
     """focal_descriptor"""
     SI_HKS = 0
@@ -97,6 +104,13 @@ class BoneNames(IntEnum):
     UNREAL = 3
     RIGIFY = 4
     UNITY = 5
+
+
+class Verdict(IntEnum):
+    """focal_verdict"""
+    GOOD = 0
+    CHECK = 1
+    FAILED = 2
 
 
 # Handles: tags to hand back, never followed.
@@ -190,7 +204,7 @@ class focal_mesh_info(Structure):
         ("boundary_loops", c_uint64),
         ("component_count", c_uint64),
         ("is_oriented", c_int32),
-        ("reserved", c_uint32),
+        ("is_wrapped", c_int32),
     ]
 
 
@@ -324,6 +338,9 @@ class focal_skeleton_info(Structure):
         ("max_influences", c_uint32),
         ("vertex_count", c_uint64),
         ("unweighted_vertices", c_uint64),
+        ("quality", c_double),
+        ("verdict", c_int32),
+        ("guessed_joints", c_uint32),
     ]
 
 
@@ -375,6 +392,7 @@ FUNCTIONS = {
     "focal_mesh_positions": (P(c_float), [P(focal_mesh)]),
     "focal_mesh_triangles": (P(c_uint32), [P(focal_mesh)]),
     "focal_mesh_warning": (c_char_p, [P(focal_mesh), c_uint32]),
+    "focal_mesh_write_wrap_gltf": (c_int32, [P(focal_mesh), c_char_p]),
     "focal_mesh_position_of": (c_int32, [P(focal_mesh), P(focal_surface_point), P(c_float)]),
     "focal_mesh_point_at_vertex": (c_int32, [P(focal_mesh), c_uint32, P(focal_surface_point)]),
     "focal_descriptor_count": (c_uint32, []),
@@ -394,6 +412,9 @@ FUNCTIONS = {
     "focal_training_set_add": (c_int32, [P(focal_training_set), P(focal_mesh), P(focal_surface_point), c_uint64]),
     "focal_training_set_add_vertices": (c_int32, [P(focal_training_set), P(focal_mesh), P(c_uint32), c_uint64]),
     "focal_training_set_add_rig": (c_int32, [P(focal_training_set), P(focal_mesh)]),
+    "focal_training_set_check": (c_int32, [P(focal_training_set)]),
+    "focal_training_set_warning_count": (c_uint32, [P(focal_training_set)]),
+    "focal_training_set_warning": (c_char_p, [P(focal_training_set), c_uint32]),
     "focal_training_set_landmark_count": (c_uint64, [P(focal_training_set)]),
     "focal_training_set_mesh_count": (c_uint64, [P(focal_training_set)]),
     "focal_train_params_init": (c_int32, [P(focal_train_params), c_size_t]),

@@ -7,6 +7,7 @@ import os
 from typing import Any, NamedTuple, Union
 
 from . import _abi
+from ._abi import Surface
 from ._arrays import block_of, copied, empty, result
 from ._context import Context, context_or_default
 from ._handle import Handle
@@ -35,7 +36,8 @@ class Mesh(Handle):
     faces     (m, 3) vertex numbers from 0, counter-clockwise seen from outside
     weld               merge vertices of exactly equal position. Default True
     drop_degenerate    drop triangles with a repeated corner and repeated triangles. Default True
-    bridge_components  link the parts of a many-part character for the analysis. Default True
+    surface            what is analysed, a focal.Surface or its name: "as-is", "wrapped" (one closed surface round all
+                       parts), "auto" (wrapped where there are several parts). Default "auto"
     lenient            leave out triangles with a NaN or infinite corner or a vertex number out of range, with a
                        warning, instead of raising an error. Default False
     max_vertices, max_triangles  larger meshes are refused. Defaults 5,000,000 and 10,000,000
@@ -51,7 +53,7 @@ class Mesh(Handle):
     _kind = "mesh"
 
     def __init__(self, vertices: Any, faces: Any, *, weld: bool | None = None, drop_degenerate: bool | None = None,
-                 surface: Surface | int | None = None, lenient: bool | None = None,
+                 surface: Surface | str | int | None = None, lenient: bool | None = None,
                  max_vertices: int | None = None, max_triangles: int | None = None,
                  context: Context | None = None, task: Task | None = None) -> None:
         positions = block_of(vertices, "vertices", "f", 3)
@@ -67,7 +69,7 @@ class Mesh(Handle):
 
     @classmethod
     def load(cls, path: str | os.PathLike[str], *, weld: bool | None = None, drop_degenerate: bool | None = None,
-             surface: Surface | int | None = None, lenient: bool | None = None,
+             surface: Surface | str | int | None = None, lenient: bool | None = None,
              allow_external_files: bool | None = None,
              keep_source_file: bool | None = None, max_vertices: int | None = None,
              max_triangles: int | None = None, max_nodes: int | None = None, max_json_bytes: int | None = None,
@@ -94,7 +96,7 @@ class Mesh(Handle):
 
     @classmethod
     def from_bytes(cls, data: Any, *, weld: bool | None = None, drop_degenerate: bool | None = None,
-                   surface: Surface | int | None = None, lenient: bool | None = None,
+                   surface: Surface | str | int | None = None, lenient: bool | None = None,
                    keep_source_file: bool | None = None,
                    max_vertices: int | None = None, max_triangles: int | None = None, max_nodes: int | None = None,
                    max_json_bytes: int | None = None, max_file_bytes: int | None = None,
@@ -115,7 +117,7 @@ class Mesh(Handle):
         """All that the library tells in numbers: counts of the mesh and of the surface that is analysed
         (surface_vertex_count, ...), mean_edge_length, surface_area, load_seconds, repair_seconds, and what was found and done: invalid_triangles,
         degenerate_triangles, flipped_triangles, nonmanifold_edges, nonmanifold_vertices, boundary_loops,
-        component_count, is_oriented."""
+        component_count, is_oriented; is_wrapped: one closed surface round the mesh is analysed."""
         info = new(_abi.focal_mesh_info)
         call("focal_mesh_get_info", self._handle, ctypes.byref(info))
         return as_dict(info)
@@ -154,6 +156,11 @@ class Mesh(Handle):
     def warnings(self) -> list[str]:
         """Plain sentences on what was found and done."""
         return self._texts("focal_mesh_warning", self.info["warning_count"])
+
+    def write_wrap(self, path: str | os.PathLike[str]) -> None:
+        """Writes the closed surface round the mesh as a .glb, to look at: what is analysed where info["is_wrapped"].
+        Error: INVALID_ARGUMENT (a path that ends in .gltf), IO, FILE_NOT_FOUND (no such folder)."""
+        call("focal_mesh_write_wrap_gltf", self._handle, path_text(path))
 
     def position_of(self, point: SurfacePoint) -> tuple[float, float, float]:
         """Where a surface point lies. Error with Status.INVALID_LANDMARK when its triangle does not exist."""

@@ -57,10 +57,21 @@ class Skeleton(Handle):
 
     @property
     def info(self) -> dict[str, Any]:
-        """joint_count, warning_count, max_influences (of one vertex), vertex_count, unweighted_vertices."""
+        """joint_count, warning_count, max_influences (of one vertex), vertex_count, unweighted_vertices, quality, verdict,
+        guessed_joints (those without a landmark that was found)."""
         info = new(_abi.focal_skeleton_info)
         call("focal_skeleton_get_info", self._handle, ctypes.byref(info))
         return as_dict(info)
+
+    @property
+    def verdict(self) -> _abi.Verdict:
+        """GOOD, CHECK (some joints may lie wrong) or FAILED (not to be used); warnings say what speaks against it."""
+        return self.info["verdict"]
+
+    @property
+    def quality(self) -> float:
+        """0..1: what the verdict follows from."""
+        return self.info["quality"]
 
     @property
     def warnings(self) -> list[str]:

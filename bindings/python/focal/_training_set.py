@@ -91,6 +91,18 @@ class TrainingSet(Handle):
         with self._changed():
             call("focal_training_set_add_rig", self._handle, handle)
 
+    def check(self) -> list[str]:
+        """What is odd about the rigged characters, in sentences that number them from 1: joints that some of them lack,
+        prefixes of names that were put aside, weights that are no numbers, joints all in one place. Model.train learns
+        from them all the same. A set with landmark names has nothing odd.
+
+        Error: INVALID_ARGUMENT (no character, or characters that share fewer than half of their joints).
+        """
+        with self._changed():
+            call("focal_training_set_check", self._handle)
+            count = library().focal_training_set_warning_count(self._handle)
+            return self._texts("focal_training_set_warning", count)
+
     @contextlib.contextmanager
     def _changed(self) -> Iterator[None]:
         with self._changing:

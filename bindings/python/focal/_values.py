@@ -18,7 +18,9 @@ _RANGES = {
     ctypes.c_uint32: (0, 2**32 - 1),
     ctypes.c_uint64: (0, 2**64 - 1),
 }
-_ENUMS = {"preset": _abi.Preset, "backend": _abi.Backend, "quality": _abi.Quality}
+# By field; 0..1 the quality of a skeleton is a double, and stays one.
+_ENUMS = {"preset": _abi.Preset, "backend": _abi.Backend, "quality": _abi.Quality, "surface": _abi.Surface,
+          "verdict": _abi.Verdict}
 
 
 class SurfacePoint(NamedTuple):
@@ -144,5 +146,5 @@ def as_dict(struct: Any) -> dict[str, Any]:
     for name, _ in struct._fields_:
         if name != "struct_size" and not name.startswith("reserved"):
             value = getattr(struct, name)
-            fields[name] = _ENUMS[name](value) if name in _ENUMS else value
+            fields[name] = _ENUMS[name](value) if name in _ENUMS and isinstance(value, int) else value
     return fields

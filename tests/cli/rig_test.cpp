@@ -1,0 +1,146 @@
+// Rigs from the command: the verdict on them, teachers that cannot teach, and the wrap to look at.
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "command.h"
+#include "files.h"
+#include "tiny_set.h"
+
+#ifdef FOCAL_CREATURES
+namespace {
+
+namespace fs = std::filesystem;
+
+// Sample humanoids, and a quick model of one of them, made once for all tests of this file.
+struct Humanoids {
+  ScratchFolder scratch;
+  json trained;
+  Humanoids() {
+    const std::string line = "\"" FOCAL_CREATURES "\" " + scratch.path.string() +
+                             " --family humanoid --train 1 --test 1 > " + (scratch / "log");
+    REQUIRE(std::system(line.c_str()) == 0);
+    trained = focal_json("train --rigs " + teacher() + " -o " + model() +
+                         " --eigenpairs 60 --trees 6 --proxy 1000");
+  }
+  std::string teacher() const { return scratch / "humanoid/humanoid_00.rig.glb"; }
+  std::string mesh() const { return scratch / "humanoid/humanoid_01.glb"; }
+  std::string model() const { return scratch / "rig.focal"; }
+};
+
+const Humanoids& humanoids() {
+  static const Humanoids one;
+  return one;
+}
+
+// A file of the scratch folder with every `from` in it become `to`, which is as long.
+std::string edited(const ScratchFolder& scratch, const std::string& file, const std::string& name,
+                   const std::string& from, const std::string& to) {
+  std::string text = focal_cli::read_text_file(file);
+  for (size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+  return scratch.write(name, text);
+}
+
+}  // namespace
+
+TEST_CASE("rig: a verdict in JSON and in words") {
+  const ScratchFolder scratch;
+  const std::string line =
+      "rig " + humanoids().model() + " " + humanoids().mesh() + " -o " + (scratch / "a.glb");
+  const json report = focal_json(line);
+  CHECK(keys_of(report) == Keys{"mesh", "output", "verdict", "quality", "guessed_joints", "joints", "weights",
+                                "category_fit", "warnings", "seconds"});
+  CHECK((report["verdict"] == "good" || report["verdict"] == "check"));
+  CHECK(report["quality"] > 0);
+  CHECK(report["quality"] <= 1);
+  CHECK(report["guessed_joints"] <= report["joints"].size());
+  CHECK(report["output"] == scratch / "a.glb");
+  CHECK(fs::exists(scratch / "a.glb"));
+  const Run run = focal(line);
+  CHECK(run.status == 0);
+  CHECK(run.out.find("\nverdict: " + report["verdict"].get<std::string>() + ", quality ") !=
+        std::string::npos);
+  CHECK((run.out.find("\nhint: ") != std::string::npos) == (report["verdict"] == "check"));
+  size_t guesses = 0;
+  for (const json& warning : report["warnings"])
+    guesses += warning.get<std::string>().find("is a guess") != std::string::npos;
+  CHECK(guesses <= 1);
+}
+
+TEST_CASE("rig: what failed ends with 1 and writes nothing, unless it is to be kept") {
+  const ScratchFolder scratch;
+  write_tiny_set(scratch, 1, 0);  // an egg is no humanoid
+  const std::string out = scratch / "a.glb";
+  const std::string line = "rig " + humanoids().model() + " " + (scratch / "egg0.glb") + " -o " + out;
+  const Run run = focal(line + " --json");
+  CAPTURE(run.out);
+  CAPTURE(run.err);
+  CHECK(run.status == 1);
+  const json report = json::parse(run.out);
+  CHECK(report["verdict"] == "failed");
+  CHECK(report["output"].is_null());
+  CHECK_FALSE(report["warnings"].empty());
+  CHECK_FALSE(fs::exists(out));
+  CHECK(run.err.find("no file is written without --keep-failed") != std::string::npos);
+  CHECK(run.err.find("\nhint: ") != std::string::npos);
+  const Run kept = focal(line + " --keep-failed");
+  CHECK(kept.status == 1);
+  CHECK(kept.out.find("verdict: failed") != std::string::npos);
+  CHECK(fs::exists(out));
+}
+
+TEST_CASE("batch: a verdict a file and their count") {
+  const ScratchFolder scratch, results;
+  write_tiny_set(scratch, 1, 0);
+  fs::create_directory(scratch.path / "in");
+  fs::copy_file(scratch / "egg0.glb", scratch / "in/egg.glb");
+  fs::copy_file(humanoids().mesh(), scratch / "in/man.glb");
+  const std::string line =
+      "batch " + humanoids().model() + " " + (scratch / "in") + " -o " + results.path.string() + " --rig";
+  const Run run = focal(line + " --json");
+  CHECK(run.status == 1);
+  const json report = json::parse(run.out);
+  CHECK(keys_of(report) == Keys{"meshes", "done", "kept", "failed", "verdicts"});
+  CHECK(report["failed"] == 1);
+  CHECK(report["verdicts"]["failed"] == 1);
+  CHECK(report["verdicts"]["good"].get<int>() + report["verdicts"]["check"].get<int>() == 1);
+  CHECK(report["meshes"][0]["verdict"] == "failed");
+  CHECK(report["meshes"][0]["status"] == "failed");
+  CHECK_FALSE(fs::exists(results / "egg.glb"));
+  CHECK(fs::exists(results / "man.glb"));
+  const Run words = focal(line);
+  CHECK(words.out.find("man.glb: there already") != std::string::npos);
+  CHECK(words.out.find("rigs: 0 good, 0 to check, 1 failed") != std::string::npos);
+}
+
+TEST_CASE("train on rigs: what is odd about the teachers is said, with their files") {
+  CHECK(humanoids().trained["warnings"] == json::array());
+  const ScratchFolder scratch;
+  const std::string sided = edited(scratch, humanoids().teacher(), "sided.glb", "\"left", "\"Left");
+  const std::string other = edited(scratch, sided, "other.glb", "\"right", "\"Right");
+  check_fails("train --rigs " + humanoids().teacher() + " " + other + " -o " + (scratch / "a.focal"),
+              "2 (other.glb) share");
+  CHECK_FALSE(fs::exists(scratch / "a.focal"));
+}
+
+TEST_CASE("info and convert: what is analysed, and the wrap to look at") {
+  const ScratchFolder scratch;
+  const std::string mesh = humanoids().mesh();
+  CHECK(focal_json("info " + mesh)["analysed"] == "as-is");
+  CHECK(focal_json("info " + mesh + " --surface wrapped")["analysed"] == "wrapped");
+  CHECK(focal("info " + mesh + " --surface paper").status == 2);
+  const json report = focal_json("convert " + mesh + " " + (scratch / "wrap.glb"));
+  CHECK(keys_of(report) == Keys{"in", "out", "vertices", "triangles", "analysed"});
+  CHECK(report["triangles"] > 500);
+  const json wrap = focal_json("info " + (scratch / "wrap.glb"));
+  CHECK(wrap["components"] == 1);
+  CHECK(wrap["boundary_loops"] == 0);
+  CHECK(wrap["triangles"] == report["triangles"]);
+  const Run words = focal("convert " + mesh + " " + (scratch / "wrap.glb"));
+  CHECK(words.out.find("closed surface round") != std::string::npos);
+  check_fails("convert " + mesh + " " + (scratch / "wrap.gltf"), ".glb");
+}
+#endif
