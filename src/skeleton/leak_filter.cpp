@@ -10,11 +10,11 @@
 namespace focal {
 namespace {
 
-constexpr float moves = 0.05F;        // what weighs less does not say how far a joint reaches
-constexpr double room = 1.25;         // bodies are stouter than those that teach
-constexpr double least_reach = 0.03;  // of sqrt(area)
-constexpr double small_island = 0.15; // of the largest part where a joint is the main one
-constexpr double fade = 0.6;          // of a bone's length: how far a joint reaches along the surface beyond its core
+constexpr float moves = 0.05F;         // what weighs less does not say how far a joint reaches
+constexpr double room = 1.25;          // bodies are stouter than those that teach
+constexpr double least_reach = 0.03;   // of sqrt(area)
+constexpr double small_island = 0.15;  // of the largest part where a joint is the main one
+constexpr double fade = 0.6;  // of a bone's length: how far a joint reaches along the surface beyond its core
 
 std::vector<int32_t> main_joints(const RowMatrixf& weights) {
   std::vector<int32_t> result;
@@ -79,8 +79,7 @@ std::vector<float> ways_from_core(const std::vector<int32_t>& main, int32_t join
     front.pop();
     if (length > way[v] || length > most) continue;
     for (SparseMatrix::InnerIterator it(analysis.operators.L, v); it; ++it) {
-      const float next =
-          length + static_cast<float>((positions.row(it.row()) - positions.row(v)).norm());
+      const float next = length + static_cast<float>((positions.row(it.row()) - positions.row(v)).norm());
       if (next < way[it.row()]) way[it.row()] = next, front.emplace(next, static_cast<int32_t>(it.row()));
     }
   }
@@ -111,7 +110,8 @@ void drop_far_along_surface(RowMatrixf& weights, const SurfaceAnalysis& analysis
 }
 
 // The nearest of the joints that reach so far; of all where none does.
-Eigen::Index nearest_joint(const Eigen::Ref<const Eigen::RowVectorXf>& distance, const std::vector<float>& reach) {
+Eigen::Index nearest_joint(const Eigen::Ref<const Eigen::RowVectorXf>& distance,
+                           const std::vector<float>& reach) {
   Eigen::Index best = 0;
   float least = std::numeric_limits<float>::infinity();
   for (Eigen::Index j = 0; j < distance.size(); ++j)

@@ -9,8 +9,9 @@ namespace focal {
 
 // What the training shapes' own weights keep to.
 struct WeightHabits {
-  std::vector<float> reach;  // per joint: how far from its bones it moves what, of sqrt(area) of the character
-  RowMatrixf together;       // joints x joints: 1 where two of them move one place
+  std::vector<float>
+      reach;            // per joint: how far from its bones it moves what, of sqrt(area) of the character
+  RowMatrixf together;  // joints x joints: 1 where two of them move one place
 };
 
 // posed: the points of each map's shape, their joints at those of the skeleton.

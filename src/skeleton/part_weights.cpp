@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <unordered_map>
 
 #include "mesh/closest_point.h"
@@ -10,16 +9,17 @@
 
 namespace focal {
 namespace {
-inline double env(const char* n, double d) { const char* s = std::getenv(n); return s ? std::atof(s) : d; }
-
-constexpr float least_weight = 0.02F;   // lighter influences are dropped
-constexpr double same_place = 5e-4;     // of the mesh's extent
-const double small_extent = env("F_EXT", 0.45);   // a rigid part's, of the mesh's
-const double small_area = env("F_AREA", 0.25);     // a rigid part's, of the mesh's
-const float one_bone = (float)env("F_ONE", 0.75);       // share of the main joint in a rigid part, at least
-const float two_bones = (float)env("F_TWO", 0.9);       // of the two main ones in a tiny part
-const double tiny_extent = env("F_TINY", 0.12);    // its extent, of the mesh's
-constexpr double faces_other_way = 1.5; // mean edges of the analysed surface: how much farther the side that faces alike may be
+// Lengths in extents of the mesh, areas in its area. Chosen on characters of game packs.
+constexpr float least_weight = 0.02F;  // lighter influences are dropped
+constexpr double same_place = 5e-4;    // vertices that touch
+constexpr double most_rigid_area = 0.4, small_extent = 0.45, tiny_extent = 0.2;
+constexpr float nearly_one = 0.9F;      // share of the main joint in a part of any form that is rigid
+constexpr float one_bone = 0.75F;       // in a small one that does not bend with a joint
+constexpr float tiny_one_bone = 0.55F;  // in a tiny one
+constexpr float two_bones = 0.9F;       // of the two main joints in a tiny one
+constexpr float bends_with = 0.2F;      // share of a joint that a part bends with when it lies round it
+// How much farther than the nearest side the one that faces alike may be, in mean edges of the analysed surface.
+constexpr double faces_other_way = 1.5;
 
 double extent_of(const MatrixX3& positions) {
   return (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).norm();
@@ -32,8 +32,7 @@ std::vector<SurfacePoint> places_of_vertices(const Proxy& proxy, const Execution
   const MatrixX3 normals = area_normals(full);
   std::vector<SurfaceQuery> facing, any;
   for (int32_t v = 0; v < full.vertex_count(); ++v) {
-    const Vector3 place =
-        (full.positions.row(v).transpose() - proxy.coarse->centre) / proxy.coarse->scale;
+    const Vector3 place = (full.positions.row(v).transpose() - proxy.coarse->centre) / proxy.coarse->scale;
     any.push_back({place, Vector3::Zero()});
     facing.push_back({place, normals.row(v).transpose()});
   }
@@ -41,7 +40,9 @@ std::vector<SurfacePoint> places_of_vertices(const Proxy& proxy, const Execution
   std::vector<SurfacePoint> result = closest_points(coarse, any, 2 * edge, execution);
   const auto alike = closest_points(coarse, facing, 2 * edge, execution);
   for (size_t v = 0; v < result.size(); ++v) {
-    const auto away = [&](const SurfacePoint& p) { return (position_of(coarse, p) - any[v].position).norm(); };
+    const auto away = [&](const SurfacePoint& p) {
+      return (position_of(coarse, p) - any[v].position).norm();
+    };
     if (alike[v].triangle >= 0 && away(alike[v]) < away(result[v]) + faces_other_way * edge)
       result[v] = alike[v];
   }
@@ -75,7 +76,8 @@ std::vector<int32_t> first_at_place(const MatrixX3& positions, double tolerance)
     const Eigen::Vector3i cell = (p / (2 * tolerance)).array().floor().cast<int>();
     first[v] = v;
     for (int corner = 0; corner < 27 && first[v] == v; ++corner) {
-      const auto there = cells.find(key(cell + Eigen::Vector3i(corner % 3 - 1, corner / 3 % 3 - 1, corner / 9 - 1)));
+      const auto there =
+          cells.find(key(cell + Eigen::Vector3i(corner % 3 - 1, corner / 3 % 3 - 1, corner / 9 - 1)));
       if (there == cells.end()) continue;
       for (const int32_t other : there->second)
         if ((positions.row(other).transpose() - p).norm() < tolerance) {
@@ -121,33 +123,57 @@ std::vector<Part> parts_of(const TriangleMesh& mesh, const RowMatrixf& weights) 
   return parts;
 }
 
-// The weights that all vertices of a rigid part have; empty: it is none.
-Eigen::RowVectorXf rigid_weights(const Part& part, const TriangleMesh& mesh, double extent, double area) {
-  MatrixX3 positions(static_cast<Eigen::Index>(part.vertices.size()), 3);
-  for (size_t i = 0; i < part.vertices.size(); ++i)
-    positions.row(static_cast<Eigen::Index>(i)) = mesh.positions.row(part.vertices[i]);
-  const double size = extent_of(positions) / extent;
-  if (size > small_extent || part.area > small_area * area) return {};
+struct Box {
+  Vector3 low, high;
+};
+
+Box box_of(const Part& part, const MatrixX3& positions) {
+  Box box{positions.row(part.vertices[0]).transpose(), positions.row(part.vertices[0]).transpose()};
+  for (const int32_t v : part.vertices) {
+    box.low = box.low.cwiseMin(positions.row(v).transpose());
+    box.high = box.high.cwiseMax(positions.row(v).transpose());
+  }
+  return box;
+}
+
+// Whether a part lies round a joint that moves some of it, as a cuff or a neck does, and bends with it.
+bool is_round_a_joint(const Part& part, const Box& box, const std::vector<Vector3>& joints) {
+  for (size_t j = 0; j < joints.size(); ++j)
+    if (part.mean[static_cast<Eigen::Index>(j)] > bends_with && (joints[j] - box.low).minCoeff() > 0 &&
+        (box.high - joints[j]).minCoeff() > 0)
+      return true;
+  return false;
+}
+
+// The weights that all vertices of a rigid part have; empty: it is none. extent, area: of the mesh.
+Eigen::RowVectorXf rigid_weights(const Part& part, const MatrixX3& positions,
+                                 const std::vector<Vector3>& joints, double extent, double area) {
+  if (part.area > most_rigid_area * area) return {};
   Eigen::Index main = 0, second = 0;
   Eigen::RowVectorXf rest = part.mean;
   const float most = rest.maxCoeff(&main);
+  Eigen::RowVectorXf result = Eigen::RowVectorXf::Zero(rest.size());
+  if (most > nearly_one) return result[main] = 1, result;
+  const Box box = box_of(part, positions);
+  const double size = (box.high - box.low).norm() / extent;
+  if (size > small_extent || is_round_a_joint(part, box, joints)) return {};
+  if (most > (size > tiny_extent ? one_bone : tiny_one_bone)) return result[main] = 1, result;
   rest[main] = 0;
   const float more = rest.maxCoeff(&second);
-  Eigen::RowVectorXf result = Eigen::RowVectorXf::Zero(rest.size());
-  if (most >= one_bone) return result[main] = 1, result;
   if (size > tiny_extent || most + more < two_bones) return {};
   result[main] = most / (most + more), result[second] = more / (most + more);
   return result;
 }
 
-void stiffen_parts(RowMatrixf& weights, const TriangleMesh& mesh) {
+// joints: where they lie, in the coordinates of the mesh.
+void stiffen_parts(RowMatrixf& weights, const TriangleMesh& mesh, const std::vector<Vector3>& joints) {
   const std::vector<Part> parts = parts_of(mesh, weights);
   if (parts.size() < 2) return;
   const double extent = extent_of(mesh.positions);
   double area = 0;
   for (const Part& part : parts) area += part.area;
   for (const Part& part : parts) {
-    const Eigen::RowVectorXf rigid = rigid_weights(part, mesh, extent, area);
+    const Eigen::RowVectorXf rigid = rigid_weights(part, mesh.positions, joints, extent, area);
     if (rigid.size() > 0)
       for (const int32_t v : part.vertices) weights.row(v) = rigid;
   }
@@ -163,13 +189,17 @@ VertexInfluences influences_of(const Eigen::Ref<const Eigen::RowVectorXf>& weigh
 
 }  // namespace
 
-std::vector<VertexInfluences> influences_by_parts(const SurfaceWeights& found, const SurfaceAnalysis& analysis,
+std::vector<VertexInfluences> influences_by_parts(const SurfaceWeights& found, const PlacedSkeleton& skeleton,
+                                                  const SurfaceAnalysis& analysis,
                                                   const Execution& execution) {
   const PreparedMesh& full = *analysis.proxy.full;
   RowMatrixf weights = lifted(found.weights, analysis, execution);
   close_seams(weights, full.surface.positions);
   for (Eigen::Index v = 0; v < weights.rows(); ++v) sharpen(weights.row(v), found.exponent);
-  stiffen_parts(weights, full.surface);
+  std::vector<Vector3> joints = skeleton.place;
+  if (!analysis.proxy.is_full())
+    for (Vector3& p : joints) p = analysis.proxy.coarse->centre + analysis.proxy.coarse->scale * p;
+  stiffen_parts(weights, full.surface, joints);
   std::vector<VertexInfluences> result;
   for (const int32_t v : full.surface_vertex)
     result.push_back(v >= 0 ? influences_of(weights.row(v)) : VertexInfluences{});

@@ -10,7 +10,8 @@ namespace focal {
 // Each source vertex takes the weights of the nearest place that faces as it does. Vertices of different parts at one place get
 // the same weights; but a small separate part that rides on a bone or two (a hat, an eye, a shoulder plate) is rigid: all its
 // vertices have the same weights.
-std::vector<VertexInfluences> influences_by_parts(const SurfaceWeights& found, const SurfaceAnalysis& analysis,
+std::vector<VertexInfluences> influences_by_parts(const SurfaceWeights& found, const PlacedSkeleton& skeleton,
+                                                  const SurfaceAnalysis& analysis,
                                                   const Execution& execution);
 
 }  // namespace focal

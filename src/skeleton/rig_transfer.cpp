@@ -264,8 +264,8 @@ CharacterRig transfer_rig(const Detection& detection, const Execution& execution
   settle_twists(model, opinions, joints);
   warn_of_absent(detection, result.warnings);
   execution.begin_stage("weights", 0.8, 1);
-  const SurfaceWeights weights = taught_weights(
-      {model, maps, weight}, analysis, on_analysed(model.skeleton, joints, analysis.proxy), execution);
+  const PlacedSkeleton placed = on_analysed(model.skeleton, joints, analysis.proxy);
+  const SurfaceWeights weights = taught_weights({model, maps, weight}, analysis, placed, execution);
   draw_inside(joints, weights.weights, {vertices, analysis.surface().triangles});
   const PreparedMesh& full = *detection.mesh;
   const auto to_caller = [&](const Vector3& p) -> Vector3 { return full.centre + full.scale * p; };
@@ -279,7 +279,7 @@ CharacterRig transfer_rig(const Detection& detection, const Execution& execution
   result.confidence = joints.confidence;
   if (symmetric) make_bones_symmetric(result);
   result.rest = rest_pose(model, result.rig.joints);
-  result.rig.influences = influences_by_parts(weights, analysis, execution);
+  result.rig.influences = influences_by_parts(weights, placed, analysis, execution);
   return result;
 }
 

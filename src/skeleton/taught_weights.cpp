@@ -7,18 +7,16 @@
 #include "landmarks/model_parts.h"
 #include "skeleton/leak_filter.h"
 #include "spectrum/functional_map.h"
-#include <cstdlib>
 
 namespace focal {
 namespace {
-inline double env(const char* n, double d) { const char* s = std::getenv(n); return s ? std::atof(s) : d; }
-
 // Chosen on left-out characters of game packs.
-const double space_share = env("F_SPACE", 400);      // of a length in space beside lengths in the embedding, sqrt(area) = 1
-const int smoothing_rounds = (int)env("F_SMOOTH", 1);       // before the weights are sharpened
-const float most_exponent = (float)env("F_EXP", 8);
+constexpr double space_share =
+    400;  // of a length in space beside lengths in the embedding, both of sqrt(area)
+constexpr double rigid_teachers = 0.92;  // hardness from which weights are not smoothed
+constexpr float most_exponent = 8;
 constexpr int between = PlacesBetween::vertices;
-constexpr double least_length = 1e-4;    // of a bone that has a direction
+constexpr double least_length = 1e-4;  // of a bone that has a direction
 
 // Where a joint's bones lead in the mean; the joint itself where they lead nowhere.
 Vector3 end_of(const std::vector<SkeletonJoint>& joints, const std::vector<Vector3>& place,
@@ -187,10 +185,10 @@ SurfaceWeights taught_weights(const Teachers& teachers, const SurfaceAnalysis& a
     const float total = result.weights.row(v).sum();
     if (total > 0) result.weights.row(v) /= total;
   }
-  if (env("F_LEAK", 1) > 0) drop_leaks(result.weights, analysis, skeleton, habits_of(teachers, skeleton, posed));
-  for (int round = 0; round < smoothing_rounds; ++round) smooth(result.weights, analysis.operators.L);
-  result.exponent = exponent_for(result.weights, analysis.operators.mass, hardness_of(teachers));
-  if (std::getenv("F_TRACE")) fprintf(stderr, "hardness %.3f exponent %.2f\n", hardness_of(teachers), result.exponent);
+  drop_leaks(result.weights, analysis, skeleton, habits_of(teachers, skeleton, posed));
+  const double hardness = hardness_of(teachers);
+  if (hardness < rigid_teachers) smooth(result.weights, analysis.operators.L);
+  result.exponent = exponent_for(result.weights, analysis.operators.mass, hardness);
   return result;
 }
 
