@@ -10,8 +10,7 @@
 namespace focal {
 namespace {
 // Lengths in extents of the mesh, areas in its area. Chosen on characters of game packs.
-constexpr float least_weight = 0.02F;  // lighter influences are dropped
-constexpr double same_place = 5e-4;    // vertices that touch
+constexpr double same_place = 5e-4;  // vertices that touch
 constexpr double most_rigid_area = 0.4, small_extent = 0.45, tiny_extent = 0.2;
 constexpr float nearly_one = 0.9F;      // share of the main joint in a part of any form that is rigid
 constexpr float one_bone = 0.75F;       // in a small one that does not bend with a joint
@@ -179,19 +178,11 @@ void stiffen_parts(RowMatrixf& weights, const TriangleMesh& mesh, const std::vec
   }
 }
 
-VertexInfluences influences_of(const Eigen::Ref<const Eigen::RowVectorXf>& weights) {
-  std::vector<Influence> influences;
-  const float total = weights.sum();
-  for (Eigen::Index j = 0; j < weights.size(); ++j)
-    if (weights[j] > least_weight * total) influences.push_back({static_cast<int32_t>(j), weights[j]});
-  return heaviest(influences);
-}
-
 }  // namespace
 
-std::vector<VertexInfluences> influences_by_parts(const SurfaceWeights& found, const PlacedSkeleton& skeleton,
-                                                  const SurfaceAnalysis& analysis,
-                                                  const Execution& execution) {
+void put_influences_by_parts(const SurfaceWeights& found, const PlacedSkeleton& skeleton,
+                             const SurfaceAnalysis& analysis, int32_t most, Rig& rig,
+                             const Execution& execution) {
   const PreparedMesh& full = *analysis.proxy.full;
   RowMatrixf weights = lifted(found.weights, analysis, execution);
   close_seams(weights, full.surface.positions);
@@ -200,10 +191,9 @@ std::vector<VertexInfluences> influences_by_parts(const SurfaceWeights& found, c
   if (!analysis.proxy.is_full())
     for (Vector3& p : joints) p = analysis.proxy.coarse->centre + analysis.proxy.coarse->scale * p;
   stiffen_parts(weights, full.surface, joints);
-  std::vector<VertexInfluences> result;
-  for (const int32_t v : full.surface_vertex)
-    result.push_back(v >= 0 ? influences_of(weights.row(v)) : VertexInfluences{});
-  return result;
+  clear_influences(full.surface_vertex.size(), most, rig);
+  for (size_t v = 0; v < full.surface_vertex.size(); ++v)
+    if (full.surface_vertex[v] >= 0) put_influences(weights.row(full.surface_vertex[v]), most, v, rig);
 }
 
 }  // namespace focal

@@ -226,7 +226,8 @@ void warn_of_absent(const Detection& detection, std::vector<std::string>& warnin
 }
 
 // From the coordinates of the full surface to those of the analysed one.
-PlacedSkeleton on_analysed(const std::vector<SkeletonJoint>& skeleton, const Joints& joints, const Proxy& proxy) {
+PlacedSkeleton on_analysed(const std::vector<SkeletonJoint>& skeleton, const Joints& joints,
+                           const Proxy& proxy) {
   PlacedSkeleton result{skeleton, joints.place, joints.tip, joints.turn};
   if (proxy.is_full()) return result;
   for (auto* places : {&result.place, &result.tip})
@@ -236,7 +237,8 @@ PlacedSkeleton on_analysed(const std::vector<SkeletonJoint>& skeleton, const Joi
 
 }  // namespace
 
-CharacterRig transfer_rig(const Detection& detection, const Execution& execution, bool symmetric) {
+CharacterRig transfer_rig(const Detection& detection, const Execution& execution, bool symmetric,
+                          int32_t influences) {
   const LandmarkModel& model = *detection.model;
   execution.begin_stage("maps", 0, 0.7);
   const std::vector<ShapeMap> maps = maps_of(detection, execution);
@@ -279,7 +281,7 @@ CharacterRig transfer_rig(const Detection& detection, const Execution& execution
   result.confidence = joints.confidence;
   if (symmetric) make_bones_symmetric(result);
   result.rest = rest_pose(model, result.rig.joints);
-  result.rig.influences = influences_by_parts(weights, placed, analysis, execution);
+  put_influences_by_parts(weights, placed, analysis, influences, result.rig, execution);
   return result;
 }
 

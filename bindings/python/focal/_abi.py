@@ -313,6 +313,7 @@ class focal_skeleton_params(Structure):
         ("rest_pose", c_int32),
         ("symmetric", c_int32),
         ("skeleton_template", c_char_p),
+        ("max_influences", c_int32),
     ]
 
 
@@ -324,6 +325,7 @@ class focal_skeleton_info(Structure):
         ("max_influences", c_uint32),
         ("vertex_count", c_uint64),
         ("unweighted_vertices", c_uint64),
+        ("influences_per_vertex", c_uint32),
     ]
 
 
