@@ -24,10 +24,14 @@ namespace focal {
 template <>
 struct StructTraits<focal_skeleton_params> {
   static constexpr const char* name = "focal_skeleton_params";
-  static constexpr size_t first_size = sizeof(focal_skeleton_params);
-  static focal_skeleton_params defaults() { return {}; }
+  static constexpr size_t first_size = offsetof(focal_skeleton_params, max_influences);
+  static focal_skeleton_params defaults() {
+    focal_skeleton_params params{};
+    params.max_influences = most_influences;
+    return params;
+  }
 };
-static_assert(sizeof(void*) != 8 || (sizeof(focal_skeleton_params) == 48 &&
+static_assert(sizeof(void*) != 8 || (sizeof(focal_skeleton_params) == 56 &&
                                      offsetof(focal_skeleton_params, joint_name_count) == 16));
 
 template <>
@@ -36,7 +40,7 @@ struct StructTraits<focal_skeleton_info> {
   static constexpr size_t first_size = 32;
   static focal_skeleton_info defaults() { return {}; }
 };
-static_assert(sizeof(focal_skeleton_info) == 48 && offsetof(focal_skeleton_info, unweighted_vertices) == 24 &&
+static_assert(sizeof(focal_skeleton_info) == 56 && offsetof(focal_skeleton_info, unweighted_vertices) == 24 &&
               offsetof(focal_skeleton_info, quality) == 32 &&
               offsetof(focal_skeleton_info, guessed_joints) == 44);
 static_assert(FOCAL_VERDICT_GOOD == static_cast<int>(Verdict::good) &&
@@ -58,6 +62,7 @@ void check(const focal_skeleton_params& params) {
               FOCAL_BONE_NAMES_UNITY);
   check_flag("focal_skeleton_params.rest_pose", params.rest_pose);
   check_flag("focal_skeleton_params.symmetric", params.symmetric);
+  check_range("focal_skeleton_params.max_influences", params.max_influences, 1, 2 * most_influences);
   if (params.skeleton_template && params.animations)
     throw Error(Status::invalid_argument, "animations were asked for together with a template",
                 "they need the joints of the characters that taught the model; leave one of the two out");
@@ -160,8 +165,8 @@ focal_status focal_skeleton_create(const focal_detection* detection, const focal
     execution.check_cancelled();
     const Detection& found = object->detection->detection;
     if (by_hand) by_hand->symmetric |= how.symmetric != 0;
-    object->rig = by_hand ? rig_by_template(*by_hand, found, execution)
-                          : transfer_rig(found, execution, how.symmetric != 0);
+    object->rig = by_hand ? rig_by_template(*by_hand, found, execution, how.max_influences)
+                          : transfer_rig(found, execution, how.symmetric != 0, how.max_influences);
     // Before the joints are renamed: pairs of them, and those of the model, are told by their names.
     const RigMeasures measures = rig_measures(found, object->rig);
     if (how.rest_pose && object->rig.rest.empty())
@@ -190,17 +195,21 @@ focal_status focal_skeleton_info_init(focal_skeleton_info* info, size_t struct_s
 focal_status focal_skeleton_get_info(const focal_skeleton* skeleton, focal_skeleton_info* out_info) {
   return guarded([&] {
     const auto object = resolve<SkeletonObject>(skeleton);
-    const auto& influences = object->rig.rig.influences;
+    const Rig& rig = object->rig.rig;
     focal_skeleton_info info{};
     info.joint_count = static_cast<uint32_t>(object->rig.rig.joints.size());
     info.warning_count = static_cast<uint32_t>(object->rig.warnings.size());
-    info.vertex_count = influences.size();
+    info.vertex_count = rig.influences.size();
     info.quality = object->quality;
     info.verdict = static_cast<focal_verdict>(object->verdict);
     info.guessed_joints = object->guessed_joints;
-    for (const VertexInfluences& one : influences) {
-      const auto used = static_cast<uint32_t>(
-          std::count_if(one.begin(), one.end(), [](const Influence& i) { return i.weight > 0; }));
+    info.influences_per_vertex = (rig.more.empty() ? 1 : 2) * most_influences;
+    const auto count = [](const VertexInfluences& one) {
+      return std::count_if(one.begin(), one.end(), [](const Influence& i) { return i.weight > 0; });
+    };
+    for (size_t v = 0; v < rig.influences.size(); ++v) {
+      const auto used =
+          static_cast<uint32_t>(count(rig.influences[v]) + (rig.more.empty() ? 0 : count(rig.more[v])));
       info.max_influences = std::max(info.max_influences, used);
       info.unweighted_vertices += used == 0;
     }
@@ -227,13 +236,16 @@ focal_status focal_skeleton_weights(const focal_skeleton* skeleton, uint64_t ver
     require(out_joints, "out_joints");
     require(out_weights, "out_weights");
     const auto object = resolve<SkeletonObject>(skeleton);
-    const auto& influences = object->rig.rig.influences;
-    check_count("vertex_count", vertex_count, influences.size(), "the mesh", "vertices");
-    for (size_t v = 0; v < influences.size(); ++v)
-      for (size_t i = 0; i < influences[v].size(); ++i) {
-        out_joints[4 * v + i] = static_cast<uint32_t>(influences[v][i].joint);
-        out_weights[4 * v + i] = influences[v][i].weight;
-      }
+    const Rig& rig = object->rig.rig;
+    check_count("vertex_count", vertex_count, rig.influences.size(), "the mesh", "vertices");
+    const auto put = [&](const Influence& one) {
+      *out_joints++ = static_cast<uint32_t>(one.joint);
+      *out_weights++ = one.weight;
+    };
+    for (size_t v = 0; v < rig.influences.size(); ++v) {
+      std::ranges::for_each(rig.influences[v], put);
+      if (!rig.more.empty()) std::ranges::for_each(rig.more[v], put);
+    }
   });
 }
 

@@ -21,6 +21,7 @@ namespace {
 struct Options : CommonOptions {
   std::string model, mesh, output, names, animations, skeleton_template;
   bool rest_pose = false, symmetric = false, keep_failed = false;
+  int32_t influences = 4;
   focal_quality quality = FOCAL_QUALITY_BEST;
 };
 
@@ -65,6 +66,7 @@ Skeleton skeleton_of(const Options& options, const focal_model* model, const foc
   auto params = initialised(focal_skeleton_params_init);
   params.animations = animations;
   params.rest_pose = options.rest_pose, params.symmetric = options.symmetric;
+  params.max_influences = options.influences;
   std::string skeleton_template;
   if (!options.skeleton_template.empty()) {
     skeleton_template = read_text_file(options.skeleton_template);
@@ -202,6 +204,8 @@ void add_rig(CLI::App& app) {
       ->type_name("FILE.json");
   verb->add_flag("--symmetric", options->symmetric,
                  "Bones of the left and right side, told by their names, get the same length");
+  verb->add_option("--influences", options->influences, "joints that move one vertex, at most (default 4)")
+      ->check(CLI::Range(1, 8));
   verb->add_flag("--rest-pose", options->rest_pose,
                  "Show the mesh in the rest pose (T or A) of the first character that taught the model, by "
                  "its new joints");

@@ -722,6 +722,8 @@ typedef struct focal_skeleton_params {
      then follow from its bones by heat. NULL: the skeleton of the characters that taught the model. With a
      template, animations is not allowed, and rest_pose only when the template gives one. */
   const char* skeleton_template;
+  /* Joints that move one vertex, at most: 1 to 8, default 4. Above 4 the file has JOINTS_1 and WEIGHTS_1 too. */
+  int32_t max_influences;
 } focal_skeleton_params;
 
 FOCAL_API focal_status focal_skeleton_params_init(focal_skeleton_params* params, size_t struct_size);
@@ -752,12 +754,14 @@ typedef struct focal_skeleton_info {
   uint32_t struct_size;
   uint32_t joint_count;
   uint32_t warning_count;       /* focal_skeleton_warning */
-  uint32_t max_influences;      /* of one vertex; at most 4 */
+  uint32_t max_influences;      /* of one vertex; at most focal_skeleton_params.max_influences */
   uint64_t vertex_count;        /* of the caller's mesh */
   uint64_t unweighted_vertices; /* those that no triangle uses */
   double quality;               /* 0..1: what the verdict follows from */
   focal_verdict verdict;
   uint32_t guessed_joints; /* those without a landmark that was found: the rest of the body places them */
+  uint32_t influences_per_vertex; /* of focal_skeleton_weights: 4, or 8 where more than 4 were asked for */
+  uint32_t reserved;
 } focal_skeleton_info;
 
 FOCAL_API focal_status focal_skeleton_info_init(focal_skeleton_info* info, size_t struct_size);
@@ -778,8 +782,8 @@ FOCAL_API focal_status focal_joint_init(focal_joint* joint, size_t struct_size);
 FOCAL_API focal_status focal_skeleton_get_joint(const focal_skeleton* skeleton, uint32_t index,
                                                 focal_joint* out_joint);
 
-/* Four influences for each of the caller's vertices, heaviest first: joint numbers and weights,
- * vertex_count x 4. Weights sum to 1; all 0 where no triangle uses the vertex. vertex_count must be the
+/* Influences of each of the caller's vertices, heaviest first: joint numbers and weights,
+ * vertex_count x focal_skeleton_info.influences_per_vertex, which is 4 unless more were asked for. Weights sum to 1; all 0 where no triangle uses the vertex. vertex_count must be the
  * mesh's. */
 FOCAL_API focal_status focal_skeleton_weights(const focal_skeleton* skeleton, uint64_t vertex_count,
                                               uint32_t* out_joints, float* out_weights);

@@ -59,6 +59,7 @@ class SkinInserter {
   size_t skin_for(const Matrix4& world_transform);
   size_t place_skin(const std::string& text);
   void add_weights(const GltfPrimitive& primitive);
+  void add_weight_set(const GltfPrimitive& primitive, const std::vector<VertexInfluences>& all, int set);
   void turn_triangles(const GltfPrimitive& primitive);
   std::string free_animation_name(const std::string& name);
   void add_animation(const JointAnimation& animation);
@@ -180,13 +181,25 @@ size_t SkinInserter::place_skin(const std::string& text) {
 }
 
 void SkinInserter::add_weights(const GltfPrimitive& primitive) {
+  Json& attributes = root_["meshes"][primitive.mesh]["primitives"][primitive.primitive]["attributes"];
+  const auto remove_set = [&](const std::string& set) {
+    return int{remove(attributes, "JOINTS_" + set)} + int{remove(attributes, "WEIGHTS_" + set)} > 0;
+  };
+  for (int set = 0; remove_set(std::to_string(set)); ++set) {
+  }
+  add_weight_set(primitive, rig_.rig->influences, 0);
+  if (!rig_.rig->more.empty()) add_weight_set(primitive, rig_.rig->more, 1);
+}
+
+void SkinInserter::add_weight_set(const GltfPrimitive& primitive, const std::vector<VertexInfluences>& all,
+                                  int set) {
   std::vector<uint8_t> narrow;
   std::vector<uint16_t> wide;
   std::vector<float> weights;
   const bool fits = rig_.rig->joints.size() <= 256;
   for (int32_t v = 0; v < primitive.vertex_count; ++v) {
-    VertexInfluences influences = rig_.rig->influences[primitive.first_vertex + v];
-    if (!(influences[0].weight > 0))
+    VertexInfluences influences = all[primitive.first_vertex + v];
+    if (set == 0 && !(influences[0].weight > 0))
       influences[0] = {0, 1};  // a vertex of no triangle: glTF wants a sum of 1
     for (const Influence& one : influences) {
       const int32_t joint = one.weight > 0 ? one.joint : 0;
@@ -200,13 +213,8 @@ void SkinInserter::add_weights(const GltfPrimitive& primitive) {
            : add_accessor(wide, count, R"("componentType":5123,"type":"VEC4")", kVertexTarget);
   const size_t shares = add_accessor(weights, count, R"("componentType":5126,"type":"VEC4")", kVertexTarget);
   Json& attributes = root_["meshes"][primitive.mesh]["primitives"][primitive.primitive]["attributes"];
-  for (int set = 0;; ++set) {
-    const std::string number = std::to_string(set);
-    const bool had_joints = remove(attributes, "JOINTS_" + number);
-    const bool had_weights = remove(attributes, "WEIGHTS_" + number);
-    if (!had_joints && !had_weights) break;
-  }
-  attributes["JOINTS_0"] = joints, attributes["WEIGHTS_0"] = shares;
+  const std::string number = std::to_string(set);
+  attributes["JOINTS_" + number] = joints, attributes["WEIGHTS_" + number] = shares;
 }
 
 // A skin's mesh ignores its node, a mirroring one too: its triangles are turned, so that their outside stays outside.

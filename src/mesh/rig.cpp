@@ -4,7 +4,7 @@
 
 namespace focal {
 
-VertexInfluences heaviest(std::span<const Influence> influences) {
+std::vector<Influence> heaviest(std::span<const Influence> influences, size_t most) {
   std::vector<Influence> merged(influences.begin(), influences.end());
   std::stable_sort(merged.begin(), merged.end(),
                    [](const Influence& a, const Influence& b) { return a.joint < b.joint; });
@@ -19,11 +19,16 @@ VertexInfluences heaviest(std::span<const Influence> influences) {
   merged.resize(kept);
   std::stable_sort(merged.begin(), merged.end(),
                    [](const Influence& a, const Influence& b) { return a.weight > b.weight; });
-  VertexInfluences result{};
+  merged.resize(std::min(merged.size(), most));
   float sum = 0;
-  const size_t count = std::min<size_t>(merged.size(), most_influences);
-  for (size_t i = 0; i < count; ++i) sum += merged[i].weight;
-  for (size_t i = 0; i < count; ++i) result[i] = {merged[i].joint, merged[i].weight / sum};
+  for (const Influence& one : merged) sum += one.weight;
+  for (Influence& one : merged) one.weight /= sum;
+  return merged;
+}
+
+VertexInfluences heaviest(std::span<const Influence> influences) {
+  VertexInfluences result{};
+  std::ranges::copy(heaviest(influences, most_influences), result.begin());
   return result;
 }
 

@@ -26,6 +26,8 @@ using VertexInfluences = std::array<Influence, most_influences>;
 struct Rig {
   std::vector<Joint> joints;
   std::vector<VertexInfluences> influences;  // one a vertex
+  // What comes after these where more than most_influences joints may move a vertex: one a vertex, both together have sum 1.
+  std::vector<VertexInfluences> more = {};  // empty: nothing does
 };
 
 // How a joint stands to its parent over time.
@@ -42,6 +44,7 @@ struct JointAnimation {
 
 // The heaviest of any number of influences, scaled to sum 1; of one joint they are added up.
 VertexInfluences heaviest(std::span<const Influence> influences);
+std::vector<Influence> heaviest(std::span<const Influence> influences, size_t most);
 
 // Linear blend skinning: each position moved by the mean of its joints' transforms (one a joint). Vertices without a joint stay.
 MatrixX3 skinned(const MatrixX3& positions, const std::vector<VertexInfluences>& influences,

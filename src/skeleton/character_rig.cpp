@@ -9,14 +9,6 @@ namespace {
 
 constexpr float least_weight = 0.02f;  // lighter influences are dropped
 
-VertexInfluences influences_of(const Eigen::Ref<const Eigen::RowVectorXf>& weights) {
-  std::vector<Influence> influences;
-  const float total = weights.sum();
-  for (Eigen::Index j = 0; j < weights.size(); ++j)
-    if (weights[j] > least_weight * total) influences.push_back({static_cast<int32_t>(j), weights[j]});
-  return heaviest(influences);
-}
-
 // The joint on the other side, -1: none.
 std::vector<int32_t> other_sides(const std::vector<Joint>& joints) {
   std::vector<int32_t> result;
@@ -39,23 +31,39 @@ ToCaller::ToCaller(const SurfaceAnalysis& analysis) {
   scale *= analysis.proxy.coarse->scale;
 }
 
-std::vector<VertexInfluences> influences_on_source(const RowMatrixf& weights, const SurfaceAnalysis& analysis,
-                                                   const Execution& execution) {
+void clear_influences(size_t vertices, int32_t most, Rig& rig) {
+  rig.influences.assign(vertices, {});
+  rig.more.assign(most > most_influences ? vertices : 0, {});
+}
+
+void put_influences(const Eigen::Ref<const Eigen::RowVectorXf>& weights, int32_t most, size_t vertex,
+                    Rig& rig) {
+  std::vector<Influence> influences;
+  const float total = weights.sum();
+  for (Eigen::Index j = 0; j < weights.size(); ++j)
+    if (weights[j] > least_weight * total) influences.push_back({static_cast<int32_t>(j), weights[j]});
+  influences = heaviest(influences, static_cast<size_t>(most));
+  for (size_t i = 0; i < influences.size(); ++i)
+    (i < most_influences ? rig.influences : rig.more)[vertex][i % most_influences] = influences[i];
+}
+
+void put_influences_on_source(const RowMatrixf& weights, const SurfaceAnalysis& analysis, int32_t most,
+                              Rig& rig, const Execution& execution) {
   const auto places = coarse_place_of_vertices(analysis.proxy, execution);
-  std::vector<VertexInfluences> on_surface(places.size());
-  parallel_for_ranges(execution, static_cast<int64_t>(places.size()), 1024, [&](int64_t begin, int64_t end) {
+  const std::vector<int32_t>& place_of = analysis.proxy.full->surface_vertex;
+  const auto count = static_cast<int64_t>(place_of.size());
+  clear_influences(place_of.size(), most, rig);
+  parallel_for_ranges(execution, count, 1024, [&](int64_t begin, int64_t end) {
     for (int64_t v = begin; v < end; ++v) {
+      if (place_of[v] < 0) continue;
+      const SurfacePoint& place = places[place_of[v]];
       Eigen::RowVectorXf mixed = Eigen::RowVectorXf::Zero(weights.cols());
       for (int c = 0; c < 3; ++c)
-        mixed += static_cast<float>(places[v].barycentric[c]) *
-                 weights.row(analysis.surface().triangles(places[v].triangle, c));
-      on_surface[v] = influences_of(mixed);
+        mixed += static_cast<float>(place.barycentric[c]) *
+                 weights.row(analysis.surface().triangles(place.triangle, c));
+      put_influences(mixed, most, static_cast<size_t>(v), rig);
     }
   });
-  std::vector<VertexInfluences> result;
-  for (const int32_t v : analysis.proxy.full->surface_vertex)
-    result.push_back(v >= 0 ? on_surface[v] : VertexInfluences{});
-  return result;
 }
 
 void make_bones_symmetric(CharacterRig& character) {

@@ -27,9 +27,15 @@ struct ToCaller {
   Vector3 offset = Vector3::Zero();
 };
 
+// Puts the heaviest weights of a row (one a joint, >= 0), `most` of 1 to 8, where a vertex of the rig has its influences.
+void put_influences(const Eigen::Ref<const Eigen::RowVectorXf>& weights, int32_t most, size_t vertex,
+                    Rig& rig);
+// Room for the influences of so many vertices, none of which any joint moves yet.
+void clear_influences(size_t vertices, int32_t most, Rig& rig);
+
 // From weights at the vertices of the analysed surface (vertices x joints, >= 0) to the heaviest of each source vertex.
-std::vector<VertexInfluences> influences_on_source(const RowMatrixf& weights, const SurfaceAnalysis& analysis,
-                                                   const Execution& execution);
+void put_influences_on_source(const RowMatrixf& weights, const SurfaceAnalysis& analysis, int32_t most,
+                              Rig& rig, const Execution& execution);
 
 // Both sides get bones of the same length, each joint moved along its bone; pairs are told by their names (see mirrored_name).
 // Of a pair the side that is known better counts more. The limbs keep their pose.

@@ -9,7 +9,9 @@
 #include "landmarks/atlas.h"
 #include "mesh/section.h"
 #include "mesh/similarity.h"
+#include "skeleton/part_weights.h"
 #include "skeleton/rig_landmarks.h"
+#include "skeleton/taught_weights.h"
 #include "skeleton/twist.h"
 #include "skeleton/verdict.h"
 
@@ -21,7 +23,6 @@ constexpr double alike_falloff = 30;    // a shape counts exp(-falloff (residual
 constexpr double place_outlier = 0.02;  // of sqrt(area): places farther from the consensus count less
 constexpr double ring_radius = 0.15;    // of sqrt(area): what is farther from the joint hardly counts
 constexpr double ring_softness = 0.05;  // share of a joint's part that counts beside its ring
-constexpr int smoothing_rounds = 1;     // of the weights; each more costs 0.01 of their L1 error
 
 // What one training shape says of the new character, in the coordinates of the full surface.
 struct Opinion {
@@ -228,45 +229,20 @@ void warn_of_absent(const Detection& detection, std::vector<std::string>& warnin
                 "): none of their landmarks was found on this mesh, each of their places is a guess");
 }
 
-// vertices of the analysed surface x joints: the mean over the shapes of the weights at the nearest point of each.
-RowMatrixf mapped_weights(const LandmarkModel& model, const SurfaceAnalysis& analysis,
-                          const std::vector<ShapeMap>& maps, const std::vector<double>& shape_weight,
-                          const Execution& execution) {
-  std::vector<std::vector<int32_t>> nearest(maps.size());
-  parallel_for(execution, static_cast<int64_t>(maps.size()), [&](int64_t m) {
-    const AtlasShape& shape = model.atlas[maps[m].shape];
-    const Eigen::MatrixXf& C = maps[m].map.C;
-    nearest[m] = nearest_rows(analysis.eigenfunctions.leftCols(C.cols()) * C.transpose(),
-                              shape.samples.Phi.topLeftCorner(shape.positions.rows(), C.rows()));
-  });
-  RowMatrixf sum =
-      RowMatrixf::Zero(analysis.surface().vertex_count(), static_cast<Eigen::Index>(model.skeleton.size()));
-  for (size_t m = 0; m < maps.size(); ++m)
-    for (Eigen::Index v = 0; v < sum.rows(); ++v)
-      for (const Influence& one : model.atlas[maps[m].shape].rig->influences[nearest[m][v]])
-        sum(v, one.joint) += static_cast<float>(shape_weight[m]) * one.weight;
-  return sum;
-}
-
-// Neighbours share their weights, so that no single vertex is torn out of its surroundings.
-RowMatrixf smoothed(RowMatrixf weights, const SparseMatrix& L) {
-  for (int round = 0; round < smoothing_rounds; ++round) {
-    RowMatrixf next = weights;
-    for (Eigen::Index v = 0; v < weights.rows(); ++v) {
-      Eigen::RowVectorXf sum = weights.row(v);
-      float count = 1;
-      for (SparseMatrix::InnerIterator it(L, v); it; ++it)
-        if (it.row() != v) sum += weights.row(it.row()), ++count;
-      next.row(v) = sum / count;
-    }
-    weights = std::move(next);
-  }
-  return weights;
+// From the coordinates of the full surface to those of the analysed one.
+PlacedSkeleton on_analysed(const std::vector<SkeletonJoint>& skeleton, const Joints& joints,
+                           const Proxy& proxy) {
+  PlacedSkeleton result{skeleton, joints.place, joints.tip, joints.turn};
+  if (proxy.is_full()) return result;
+  for (auto* places : {&result.place, &result.tip})
+    for (Vector3& p : *places) p = (p - proxy.coarse->centre) / proxy.coarse->scale;
+  return result;
 }
 
 }  // namespace
 
-CharacterRig transfer_rig(const Detection& detection, const Execution& execution, bool symmetric) {
+CharacterRig transfer_rig(const Detection& detection, const Execution& execution, bool symmetric,
+                          int32_t influences) {
   const LandmarkModel& model = *detection.model;
   execution.begin_stage("maps", 0, 0.7);
   const std::vector<ShapeMap> maps = maps_of(detection, execution);
@@ -294,9 +270,9 @@ CharacterRig transfer_rig(const Detection& detection, const Execution& execution
   settle_twists(model, opinions, joints);
   warn_of_absent(detection, result.warnings);
   execution.begin_stage("weights", 0.8, 1);
-  const RowMatrixf weights =
-      smoothed(mapped_weights(model, analysis, maps, weight, execution), analysis.operators.L);
-  draw_inside(joints, weights, {vertices, analysis.surface().triangles});
+  const PlacedSkeleton placed = on_analysed(model.skeleton, joints, analysis.proxy);
+  const SurfaceWeights weights = taught_weights({model, maps, weight}, analysis, placed, execution);
+  draw_inside(joints, weights.weights, {vertices, analysis.surface().triangles});
   const PreparedMesh& full = *detection.mesh;
   const auto to_caller = [&](const Vector3& p) -> Vector3 { return full.centre + full.scale * p; };
   for (size_t j = 0; j < model.skeleton.size(); ++j) {
@@ -309,7 +285,7 @@ CharacterRig transfer_rig(const Detection& detection, const Execution& execution
   result.confidence = joints.confidence;
   if (symmetric) make_bones_symmetric(result);
   result.rest = rest_pose(model, result.rig.joints);
-  result.rig.influences = influences_on_source(weights, analysis, execution);
+  put_influences_by_parts(weights, placed, analysis, influences, result.rig, execution);
   return result;
 }
 

@@ -7,6 +7,8 @@ namespace focal {
 // The joints lie where similarities fitted round each of them to the maps of the rigged training shapes agree; weights are
 // the mean of those at the mapped points. Throws invalid_argument when the model has no skeleton, or the detection no
 // analysis or fewer than three landmarks that are not absent. symmetric: see make_bones_symmetric.
-CharacterRig transfer_rig(const Detection& detection, const Execution& execution, bool symmetric = false);
+// influences: of one vertex at most, 1 to 8.
+CharacterRig transfer_rig(const Detection& detection, const Execution& execution, bool symmetric = false,
+                          int32_t influences = most_influences);
 
 }  // namespace focal

@@ -270,7 +270,7 @@ std::vector<Matrix4> rest_of(const SkeletonTemplate& skeleton, const std::vector
 }  // namespace
 
 CharacterRig rig_by_template(const SkeletonTemplate& skeleton, const Detection& detection,
-                             const Execution& execution) {
+                             const Execution& execution, int32_t influences) {
   if (!detection.analysis)
     throw Error(Status::invalid_argument, "the detection keeps no analysis of the mesh",
                 "detect on the mesh itself");
@@ -285,7 +285,7 @@ CharacterRig rig_by_template(const SkeletonTemplate& skeleton, const Detection& 
   const auto count = static_cast<int32_t>(joints.size());
   const RowMatrixf weights =
       bone_heat_weights(analysis, placer.rays(), placer.bones(joints), count, execution);
-  result.rig.influences = influences_on_source(weights, analysis, execution);
+  put_influences_on_source(weights, analysis, influences, result.rig, execution);
 
   ShapeRig shape;  // for the tips: the far ends of the parts
   std::vector<Influence> row(joints.size());

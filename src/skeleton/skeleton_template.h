@@ -27,6 +27,6 @@ struct SkeletonTemplate {
 // heat. A joint's y axis points along its bone. Throws invalid_argument (a name that is empty, given twice or not known, none or
 // several of the three places, places that follow from each other in a circle; a detection without an analysis).
 CharacterRig rig_by_template(const SkeletonTemplate& skeleton, const Detection& detection,
-                             const Execution& execution);
+                             const Execution& execution, int32_t influences = most_influences);
 
 }  // namespace focal

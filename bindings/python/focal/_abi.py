@@ -327,6 +327,7 @@ class focal_skeleton_params(Structure):
         ("rest_pose", c_int32),
         ("symmetric", c_int32),
         ("skeleton_template", c_char_p),
+        ("max_influences", c_int32),
     ]
 
 
@@ -341,6 +342,8 @@ class focal_skeleton_info(Structure):
         ("quality", c_double),
         ("verdict", c_int32),
         ("guessed_joints", c_uint32),
+        ("influences_per_vertex", c_uint32),
+        ("reserved", c_uint32),
     ]
 
 

@@ -178,7 +178,7 @@ class Detection(Handle):
 
     def rig(self, *, names: _abi.BoneNames | str | None = None,
             joint_names: Sequence[str | None] | Mapping[str, str] | None = None, animations: Mesh | None = None,
-            rest_pose: bool | None = None, symmetric: bool | None = None,
+            rest_pose: bool | None = None, symmetric: bool | None = None, max_influences: int | None = None,
             skeleton_template: str | Mapping[str, Any] | None = None, task: Task | None = None,
             on_progress: Progress | None = None) -> Skeleton:
         """Joints and skin weights for this mesh, in the pose that it has. About a second.
@@ -188,6 +188,7 @@ class Detection(Handle):
         animations         a rigged character, loaded from glTF, whose animations Skeleton.write puts in
         rest_pose          the file shows the character in the rest pose of those that taught the model
         symmetric          bones of the left and right side get the same length
+        max_influences     joints that move one vertex, 1 to 8 (default 4)
         skeleton_template  a skeleton of your own over the landmarks, as JSON text or as a mapping
 
         Error: INVALID_ARGUMENT (no template, and the model was not learned of rigged characters; fewer than three
@@ -195,7 +196,8 @@ class Detection(Handle):
         """
         character = None if animations is None else handle_of(animations, Mesh, "animations")
         params = skeleton_params(self._joint_names, names=names, joint_names=joint_names, animations=character,
-                                 rest_pose=rest_pose, symmetric=symmetric, skeleton_template=skeleton_template)
+                                 rest_pose=rest_pose, symmetric=symmetric, max_influences=max_influences,
+                                 skeleton_template=skeleton_template)
         handle = self._handle
         return run(lambda task_handle: Skeleton._adopt(
             create("focal_skeleton_create", _abi.focal_skeleton, handle, ctypes.byref(params), task_handle),

@@ -49,16 +49,18 @@ class Skeleton(Handle):
     @property
     def weights(self) -> tuple[Any, Any]:
         """(joints, weights): for each of the mesh's vertices four joint numbers, (n, 4), heaviest first, and their
-        weights, (n, 4) floats that sum to 1; all 0 where no triangle uses the vertex."""
-        count = self.info["vertex_count"]
-        joints, weights = empty("I", 4 * count), empty("f", 4 * count)
+        weights, (n, 4) floats that sum to 1; all 0 where no triangle uses the vertex. Eight where rig was asked for
+        more than four."""
+        info = self.info
+        count, each = info["vertex_count"], info["influences_per_vertex"]
+        joints, weights = empty("I", each * count), empty("f", each * count)
         call("focal_skeleton_weights", self._handle, count, joints.pointer, weights.pointer)
-        return result(joints.owner, 4), result(weights.owner, 4)
+        return result(joints.owner, each), result(weights.owner, each)
 
     @property
     def info(self) -> dict[str, Any]:
         """joint_count, warning_count, max_influences (of one vertex), vertex_count, unweighted_vertices, quality, verdict,
-        guessed_joints (those without a landmark that was found)."""
+        guessed_joints (those without a landmark that was found), influences_per_vertex (of weights)."""
         info = new(_abi.focal_skeleton_info)
         call("focal_skeleton_get_info", self._handle, ctypes.byref(info))
         return as_dict(info)

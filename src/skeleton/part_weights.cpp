@@ -1,0 +1,199 @@
+#include "skeleton/part_weights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include "mesh/closest_point.h"
+#include "mesh/components.h"
+
+namespace focal {
+namespace {
+// Lengths in extents of the mesh, areas in its area. Chosen on characters of game packs.
+constexpr double same_place = 5e-4;  // vertices that touch
+constexpr double most_rigid_area = 0.4, small_extent = 0.45, tiny_extent = 0.2;
+constexpr float nearly_one = 0.9F;      // share of the main joint in a part of any form that is rigid
+constexpr float one_bone = 0.75F;       // in a small one that does not bend with a joint
+constexpr float tiny_one_bone = 0.55F;  // in a tiny one
+constexpr float two_bones = 0.9F;       // of the two main joints in a tiny one
+constexpr float bends_with = 0.2F;      // share of a joint that a part bends with when it lies round it
+// How much farther than the nearest side the one that faces alike may be, in mean edges of the analysed surface.
+constexpr double faces_other_way = 1.5;
+
+double extent_of(const MatrixX3& positions) {
+  return (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).norm();
+}
+
+// Of the nearest place and the nearest that faces the same way the latter, unless it is on another part of the body.
+std::vector<SurfacePoint> places_of_vertices(const Proxy& proxy, const Execution& execution) {
+  const TriangleMesh& full = proxy.full->surface;
+  const TriangleMesh& coarse = proxy.coarse->surface;
+  const MatrixX3 normals = area_normals(full);
+  std::vector<SurfaceQuery> facing, any;
+  for (int32_t v = 0; v < full.vertex_count(); ++v) {
+    const Vector3 place = (full.positions.row(v).transpose() - proxy.coarse->centre) / proxy.coarse->scale;
+    any.push_back({place, Vector3::Zero()});
+    facing.push_back({place, normals.row(v).transpose()});
+  }
+  const double edge = mean_edge_length(coarse);
+  std::vector<SurfacePoint> result = closest_points(coarse, any, 2 * edge, execution);
+  const auto alike = closest_points(coarse, facing, 2 * edge, execution);
+  for (size_t v = 0; v < result.size(); ++v) {
+    const auto away = [&](const SurfacePoint& p) {
+      return (position_of(coarse, p) - any[v].position).norm();
+    };
+    if (alike[v].triangle >= 0 && away(alike[v]) < away(result[v]) + faces_other_way * edge)
+      result[v] = alike[v];
+  }
+  return result;
+}
+
+RowMatrixf lifted(const RowMatrixf& weights, const SurfaceAnalysis& analysis, const Execution& execution) {
+  if (analysis.proxy.is_full()) return weights;
+  const auto places = places_of_vertices(analysis.proxy, execution);
+  RowMatrixf result = RowMatrixf::Zero(static_cast<Eigen::Index>(places.size()), weights.cols());
+  parallel_for_ranges(execution, result.rows(), 1024, [&](int64_t begin, int64_t end) {
+    for (int64_t v = begin; v < end; ++v)
+      for (int c = 0; c < 3; ++c)
+        result.row(v) += static_cast<float>(places[v].barycentric[c]) *
+                         weights.row(analysis.surface().triangles(places[v].triangle, c));
+  });
+  return result;
+}
+
+// Per vertex the first one at its place.
+std::vector<int32_t> first_at_place(const MatrixX3& positions, double tolerance) {
+  std::unordered_map<uint64_t, std::vector<int32_t>> cells;
+  const auto key = [](const Eigen::Vector3i& c) {
+    return (static_cast<uint64_t>(static_cast<uint32_t>(c[0]) & 0x1FFFFF) << 42) |
+           (static_cast<uint64_t>(static_cast<uint32_t>(c[1]) & 0x1FFFFF) << 21) |
+           (static_cast<uint32_t>(c[2]) & 0x1FFFFF);
+  };
+  std::vector<int32_t> first(static_cast<size_t>(positions.rows()));
+  for (int32_t v = 0; v < positions.rows(); ++v) {
+    const Vector3 p = positions.row(v);
+    const Eigen::Vector3i cell = (p / (2 * tolerance)).array().floor().cast<int>();
+    first[v] = v;
+    for (int corner = 0; corner < 27 && first[v] == v; ++corner) {
+      const auto there =
+          cells.find(key(cell + Eigen::Vector3i(corner % 3 - 1, corner / 3 % 3 - 1, corner / 9 - 1)));
+      if (there == cells.end()) continue;
+      for (const int32_t other : there->second)
+        if ((positions.row(other).transpose() - p).norm() < tolerance) {
+          first[v] = other;
+          break;
+        }
+    }
+    if (first[v] == v) cells[key(cell)].push_back(v);
+  }
+  return first;
+}
+
+// Vertices at one place take the mean of their weights, so that seams between parts stay closed.
+void close_seams(RowMatrixf& weights, const MatrixX3& positions) {
+  const std::vector<int32_t> first = first_at_place(positions, same_place * extent_of(positions));
+  std::vector<float> count(first.size(), 1);
+  for (size_t v = 0; v < first.size(); ++v)
+    if (first[v] != static_cast<int32_t>(v))
+      weights.row(first[v]) += weights.row(static_cast<Eigen::Index>(v)), ++count[first[v]];
+  for (size_t v = 0; v < first.size(); ++v)
+    if (first[v] == static_cast<int32_t>(v)) weights.row(first[v]) /= count[v];
+  for (size_t v = 0; v < first.size(); ++v) weights.row(static_cast<Eigen::Index>(v)) = weights.row(first[v]);
+}
+
+struct Part {
+  std::vector<int32_t> vertices;
+  double area = 0;
+  Eigen::RowVectorXf mean;  // weights
+};
+
+std::vector<Part> parts_of(const TriangleMesh& mesh, const RowMatrixf& weights) {
+  const Components components = components_of(mesh);
+  std::vector<Part> parts(static_cast<size_t>(components.count));
+  const Vector area = area_normals(mesh).rowwise().norm();
+  for (Part& part : parts) part.mean = Eigen::RowVectorXf::Zero(weights.cols());
+  for (int32_t v = 0; v < mesh.vertex_count(); ++v) {
+    Part& part = parts[components.of_vertex[v]];
+    part.vertices.push_back(v), part.area += area[v];
+    part.mean += static_cast<float>(area[v]) * weights.row(v);
+  }
+  for (Part& part : parts)
+    if (const float sum = part.mean.sum(); sum > 0) part.mean /= sum;
+  return parts;
+}
+
+struct Box {
+  Vector3 low, high;
+};
+
+Box box_of(const Part& part, const MatrixX3& positions) {
+  Box box{positions.row(part.vertices[0]).transpose(), positions.row(part.vertices[0]).transpose()};
+  for (const int32_t v : part.vertices) {
+    box.low = box.low.cwiseMin(positions.row(v).transpose());
+    box.high = box.high.cwiseMax(positions.row(v).transpose());
+  }
+  return box;
+}
+
+// Whether a part lies round a joint that moves some of it, as a cuff or a neck does, and bends with it.
+bool is_round_a_joint(const Part& part, const Box& box, const std::vector<Vector3>& joints) {
+  for (size_t j = 0; j < joints.size(); ++j)
+    if (part.mean[static_cast<Eigen::Index>(j)] > bends_with && (joints[j] - box.low).minCoeff() > 0 &&
+        (box.high - joints[j]).minCoeff() > 0)
+      return true;
+  return false;
+}
+
+// The weights that all vertices of a rigid part have; empty: it is none. extent, area: of the mesh.
+Eigen::RowVectorXf rigid_weights(const Part& part, const MatrixX3& positions,
+                                 const std::vector<Vector3>& joints, double extent, double area) {
+  if (part.area > most_rigid_area * area) return {};
+  Eigen::Index main = 0, second = 0;
+  Eigen::RowVectorXf rest = part.mean;
+  const float most = rest.maxCoeff(&main);
+  Eigen::RowVectorXf result = Eigen::RowVectorXf::Zero(rest.size());
+  if (most > nearly_one) return result[main] = 1, result;
+  const Box box = box_of(part, positions);
+  const double size = (box.high - box.low).norm() / extent;
+  if (size > small_extent || is_round_a_joint(part, box, joints)) return {};
+  if (most > (size > tiny_extent ? one_bone : tiny_one_bone)) return result[main] = 1, result;
+  rest[main] = 0;
+  const float more = rest.maxCoeff(&second);
+  if (size > tiny_extent || most + more < two_bones) return {};
+  result[main] = most / (most + more), result[second] = more / (most + more);
+  return result;
+}
+
+// joints: where they lie, in the coordinates of the mesh.
+void stiffen_parts(RowMatrixf& weights, const TriangleMesh& mesh, const std::vector<Vector3>& joints) {
+  const std::vector<Part> parts = parts_of(mesh, weights);
+  if (parts.size() < 2) return;
+  const double extent = extent_of(mesh.positions);
+  double area = 0;
+  for (const Part& part : parts) area += part.area;
+  for (const Part& part : parts) {
+    const Eigen::RowVectorXf rigid = rigid_weights(part, mesh.positions, joints, extent, area);
+    if (rigid.size() > 0)
+      for (const int32_t v : part.vertices) weights.row(v) = rigid;
+  }
+}
+
+}  // namespace
+
+void put_influences_by_parts(const SurfaceWeights& found, const PlacedSkeleton& skeleton,
+                             const SurfaceAnalysis& analysis, int32_t most, Rig& rig,
+                             const Execution& execution) {
+  const PreparedMesh& full = *analysis.proxy.full;
+  RowMatrixf weights = lifted(found.weights, analysis, execution);
+  close_seams(weights, full.surface.positions);
+  for (Eigen::Index v = 0; v < weights.rows(); ++v) sharpen(weights.row(v), found.exponent);
+  std::vector<Vector3> joints = skeleton.place;
+  if (!analysis.proxy.is_full())
+    for (Vector3& p : joints) p = analysis.proxy.coarse->centre + analysis.proxy.coarse->scale * p;
+  stiffen_parts(weights, full.surface, joints);
+  clear_influences(full.surface_vertex.size(), most, rig);
+  for (size_t v = 0; v < full.surface_vertex.size(); ++v)
+    if (full.surface_vertex[v] >= 0) put_influences(weights.row(full.surface_vertex[v]), most, v, rig);
+}
+
+}  // namespace focal
