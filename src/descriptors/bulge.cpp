@@ -47,7 +47,8 @@ class Cubes {
 
 }  // namespace
 
-RowMatrixf bulge(const TriangleMesh& mesh, const MatrixX3& normals, const Vector& mass, const Execution& execution) {
+RowMatrixf bulge(const TriangleMesh& mesh, const MatrixX3& normals, const Vector& mass,
+                 const Execution& execution) {
   const int32_t step = std::max(1, mesh.vertex_count() / most_points);
   const Cubes cubes(mesh.positions, step);
   RowMatrixf result(mesh.vertex_count(), static_cast<Eigen::Index>(bulge_radii.size()));
@@ -64,7 +65,8 @@ RowMatrixf bulge(const TriangleMesh& mesh, const MatrixX3& normals, const Vector
           if (squared < bulge_radii[r] * bulge_radii[r]) sum[r] += height, area[r] += mass[x];
       });
       for (size_t r = 0; r < bulge_radii.size(); ++r)
-        result(v, static_cast<Eigen::Index>(r)) = area[r] > 0 ? static_cast<float>(sum[r] / (area[r] * bulge_radii[r])) : 0;
+        result(v, static_cast<Eigen::Index>(r)) =
+            area[r] > 0 ? static_cast<float>(sum[r] / (area[r] * bulge_radii[r])) : 0;
     }
   });
   return result;

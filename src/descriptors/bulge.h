@@ -12,6 +12,7 @@ inline constexpr std::array<double, 4> bulge_radii = {0.03, 0.06, 0.1, 0.16};  /
 // vertices x radii: the mean of n . (x - p) / r over the surface points x within r of p whose normals agree with n, by area. Below
 // 0 where the surface is convex, within -1..1. It hardly changes with the pose, and is the same on the left and the right.
 // normals: of length 1; mass: the area of each vertex. Of more than about 4,000 vertices some stand for their neighbours.
-RowMatrixf bulge(const TriangleMesh& mesh, const MatrixX3& normals, const Vector& mass, const Execution& execution);
+RowMatrixf bulge(const TriangleMesh& mesh, const MatrixX3& normals, const Vector& mass,
+                 const Execution& execution);
 
 }  // namespace focal

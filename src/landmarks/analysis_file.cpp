@@ -53,7 +53,9 @@ Proxy read_proxy(ByteReader in, std::shared_ptr<const PreparedMesh> full) {
     mesh.triangles.data()[i] = in.i32("corner", 0, vertices - 1);
   in.expect_end();
   if (vertices == 0) return {full, full};
-  return {full, std::make_shared<const PreparedMesh>(prepare(std::move(mesh), {.analysed = AnalysedSurface::as_it_is, .repair_orientation = false})),
+  return {full,
+          std::make_shared<const PreparedMesh>(
+              prepare(std::move(mesh), {.analysed = AnalysedSurface::as_it_is, .repair_orientation = false})),
           0};
 }
 

@@ -8,6 +8,7 @@
 
 #include "landmarks/backend_surface.h"
 #include "landmarks/embedded_surface.h"
+#include "landmarks/exemplar_section.h"
 #include "mesh/nearest_vertex.h"
 
 namespace focal {
@@ -215,16 +216,17 @@ AtlasShape remember_shape(const SurfaceAnalysis& analysis,
   }
   shape.bulge.resize(count, analysis.bulge.cols());
   for (Eigen::Index i = 0; i < count; ++i) shape.bulge.row(i) = analysis.bulge.row(spread[i]);
+  for (float& value : shape.bulge.reshaped()) value = kept_bulge(value);
   shape.step = std::max(shape.samples.Phi.cwiseAbs().maxCoeff(), 1e-6f) / (atlas_zero - 1);
   for (float& value : shape.samples.Phi.reshaped()) value = std::round(value / shape.step) * shape.step;
   if (rig) remember_rig(analysis, spread, *rig, shape);
   return shape;
 }
 
-std::vector<ShapeMap> map_shapes(const std::vector<AtlasShape>& atlas, std::span<const int32_t> among, float reach,
-                                 const SurfaceAnalysis& analysis, const std::vector<int32_t>& landmark,
-                                 const RowMatrixf& fields, const CarryParams& params,
-                                 const Execution& execution) {
+std::vector<ShapeMap> map_shapes(const std::vector<AtlasShape>& atlas, std::span<const int32_t> among,
+                                 float reach, const SurfaceAnalysis& analysis,
+                                 const std::vector<int32_t>& landmark, const RowMatrixf& fields,
+                                 const CarryParams& params, const Execution& execution) {
   const SpectralTargets targets = spectral_targets(analysis, params.spread);
   std::vector<Start> starts(among.size());
   parallel_for(execution, static_cast<int64_t>(among.size()), [&](int64_t s) {
@@ -242,8 +244,8 @@ std::vector<ShapeMap> map_shapes(const std::vector<AtlasShape>& atlas, std::span
   return result;
 }
 
-void find_exact_images(std::vector<ShapeMap>& maps, const std::vector<AtlasShape>& atlas, const SurfaceAnalysis& analysis,
-                       const Execution& execution) {
+void find_exact_images(std::vector<ShapeMap>& maps, const std::vector<AtlasShape>& atlas,
+                       const SurfaceAnalysis& analysis, const Execution& execution) {
   parallel_for(execution, static_cast<int64_t>(maps.size()), [&](int64_t m) {
     FunctionalMap& map = maps[m].map;
     const AtlasShape& shape = atlas[maps[m].shape];
@@ -255,7 +257,7 @@ void find_exact_images(std::vector<ShapeMap>& maps, const std::vector<AtlasShape
 
 float bulge_agreement(const AtlasShape& shape, const FunctionalMap& map, const SurfaceAnalysis& analysis) {
   const Eigen::Index points = shape.bulge.rows();
-  if (points == 0 || analysis.bulge.rows() == 0) return 0;
+  if (shape.bulge.size() == 0 || analysis.bulge.rows() == 0) return 0;
   const Eigen::VectorXf weight = shape.samples.weight.head(points) / shape.samples.weight.head(points).sum();
   float sum = 0;
   for (Eigen::Index r = 0; r < shape.bulge.cols(); ++r) {

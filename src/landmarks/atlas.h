@@ -31,7 +31,7 @@ struct CarriedMarks {
 };
 
 struct CarryParams {
-  MapParams map;  // exact_from is set here
+  MapParams map;           // exact_from is set here
   int32_t spread = 1000;   // vertices that stand for all of them until the last round
   int32_t most_alike = 0;  // carry from so many shapes only, those whose coarse maps fit best; 0: from all
 };
@@ -44,14 +44,14 @@ struct ShapeMap {
 
 // among: numbers of the shapes to map. landmark: those placed so far, which the maps start from; fields: the distances of all vertices from them, in this order.
 // One entry a shape that was mapped.
-std::vector<ShapeMap> map_shapes(const std::vector<AtlasShape>& atlas, std::span<const int32_t> among, float reach,
-                                 const SurfaceAnalysis& analysis, const std::vector<int32_t>& landmark,
-                                 const RowMatrixf& fields, const CarryParams& params,
-                                 const Execution& execution);
+std::vector<ShapeMap> map_shapes(const std::vector<AtlasShape>& atlas, std::span<const int32_t> among,
+                                 float reach, const SurfaceAnalysis& analysis,
+                                 const std::vector<int32_t>& landmark, const RowMatrixf& fields,
+                                 const CarryParams& params, const Execution& execution);
 
 // Moves the points' images, which lie at vertices that stand for all, to the nearest of all.
-void find_exact_images(std::vector<ShapeMap>& maps, const std::vector<AtlasShape>& atlas, const SurfaceAnalysis& analysis,
-                       const Execution& execution);
+void find_exact_images(std::vector<ShapeMap>& maps, const std::vector<AtlasShape>& atlas,
+                       const SurfaceAnalysis& analysis, const Execution& execution);
 
 // Correlation by area of how both surfaces bulge at the points and their images, mean over the radii, -1..1. The true map of a body
 // has a clearly higher one than one that takes front for back.

@@ -95,7 +95,8 @@ std::vector<Opinion> opinions_on(int32_t landmark, const SurfacePoint& own, doub
 // Maps of the training shapes that start from the landmarks that were not left out; nothing when those are
 // too few to start from.
 std::vector<ShapeMap> maps_from(const LandmarkModel& model, const SurfaceAnalysis& analysis,
-                                const Placement& placement, const CarryParams& params, const Execution& execution) {
+                                const Placement& placement, const CarryParams& params,
+                                const Execution& execution) {
   std::vector<int32_t> trusted;
   std::vector<SurfacePoint> starts;
   for (size_t l = 0; l < placement.vertex.size(); ++l) {
@@ -107,12 +108,14 @@ std::vector<ShapeMap> maps_from(const LandmarkModel& model, const SurfaceAnalysi
                     analysis.metric->distances(starts, execution), params, execution);
 }
 
-MapFit fit_of(const LandmarkModel& model, const SurfaceAnalysis& analysis, const std::vector<ShapeMap>& maps) {
+MapFit fit_of(const LandmarkModel& model, const SurfaceAnalysis& analysis,
+              const std::vector<ShapeMap>& maps) {
   if (maps.empty()) return {std::numeric_limits<double>::infinity(), 0};
   MapFit result;
   for (const ShapeMap& one : maps) {
     result.residual += one.map.residual / static_cast<double>(maps.size());
-    result.bulge_agreement += bulge_agreement(model.atlas[one.shape], one.map, analysis) / static_cast<double>(maps.size());
+    result.bulge_agreement +=
+        bulge_agreement(model.atlas[one.shape], one.map, analysis) / static_cast<double>(maps.size());
   }
   return result;
 }

@@ -113,7 +113,8 @@ Detection detect_afresh(const std::shared_ptr<const LandmarkModel>& model,
                         const Execution& execution) {
   execution.begin_stage("analysis", 0, 0.4);
   auto analysis = std::make_shared<SurfaceAnalysis>(analyse_for(model->params, mesh, params, execution));
-  if (model->params.oriented && !analysis->on_backend) keep_distances(*analysis, execution);  // voted with once a heading
+  if (model->params.oriented && !analysis->on_backend)
+    keep_distances(*analysis, execution);  // voted with once a heading
   Detection result = detect(model, *analysis, params, execution);
   result.seconds.proxy = analysis->proxy_seconds;
   result.seconds.spectrum = analysis->spectrum_seconds;

@@ -45,8 +45,8 @@ struct Detection {
   // triangle -1 where it is absent. No analysis where detection was handed one.
   std::shared_ptr<const SurfaceAnalysis> analysis;
   std::vector<SurfacePoint> places;
-  std::vector<int32_t> exemplars;  // training shapes that are most like it
-  std::vector<ShapeMap> maps;  // from training shapes, with quality `best`
+  std::vector<int32_t> exemplars;               // training shapes that are most like it
+  std::vector<ShapeMap> maps;                   // from training shapes, with quality `best`
   float map_residual = 0, bulge_agreement = 0;  // see Placement
   double runner_up = 0;
   RowMatrixf votes;  // landmarks x vertices of proxy.coarse->surface, each row's largest is 1; may be empty

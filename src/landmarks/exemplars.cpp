@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "landmarks/exemplar_section.h"
+
 namespace focal {
 namespace {
 
@@ -17,7 +19,8 @@ std::vector<int32_t> first_numbers(size_t count) {
 
 }  // namespace
 
-std::vector<int32_t> most_alike(const LandmarkModel& model, const Eigen::Ref<const RowMatrixf>& features, size_t most) {
+std::vector<int32_t> most_alike(const LandmarkModel& model, const Eigen::Ref<const RowMatrixf>& features,
+                                size_t most) {
   std::vector<int32_t> order = first_numbers(model.atlas.size());
   if (model.sample_shape.empty() || order.size() <= most) return order;
   std::vector<double> shared(model.atlas.size(), 0), rows(model.atlas.size(), 0);
@@ -26,7 +29,8 @@ std::vector<int32_t> most_alike(const LandmarkModel& model, const Eigen::Ref<con
     for (const RegressionTree& tree : model.forests[0].trees) {
       const int32_t leaf = tree.leaf_of(features.row(s).data());
       const int32_t begin = tree.leaf_start[leaf], end = tree.leaf_start[leaf + 1];
-      for (int32_t i = begin; i < end; ++i) shared[model.sample_shape[tree.leaf_samples[i]]] += 1.0 / (end - begin);
+      for (int32_t i = begin; i < end; ++i)
+        shared[model.sample_shape[tree.leaf_samples[i]]] += 1.0 / (end - begin);
     }
   for (size_t s = 0; s < shared.size(); ++s) shared[s] /= std::max(rows[s], 1.0);
   std::stable_sort(order.begin(), order.end(), [&](int32_t a, int32_t b) { return shared[a] > shared[b]; });
@@ -35,9 +39,14 @@ std::vector<int32_t> most_alike(const LandmarkModel& model, const Eigen::Ref<con
 }
 
 ConstellationStatistics statistics_of(const LandmarkModel& model, std::span<const int32_t> exemplars) {
-  if (exemplars.size() == model.atlas.size() || model.atlas[0].constellation.present.empty()) return model.constellation;
+  if (exemplars.size() == model.atlas.size() || model.atlas[0].constellation.present.empty())
+    return model.constellation;
   std::vector<ConstellationSample> samples;
-  for (const int32_t shape : exemplars) samples.push_back(model.atlas[shape].constellation);
+  for (const int32_t shape : exemplars) {
+    samples.push_back(model.atlas[shape].constellation);
+    for (RowMatrixf* way : {&samples.back().directions.x, &samples.back().directions.y})
+      for (float& value : way->reshaped()) value = kept_direction(value);
+  }
   return learn_constellation(samples, static_cast<int32_t>(model.landmark_names.size()));
 }
 
@@ -58,7 +67,8 @@ double disagreement(const LandmarkModel& model, const Eigen::Ref<const RowMatrix
       mean = (known > 0).select(mean / known.max(1), 0);
       sum += mean, squares += mean.square(), says += (known > 0).cast<float>();
     }
-    total += (squares / says.max(1) - (sum / says.max(1)).square()).max(0).sqrt().sum(), count += static_cast<double>(L);
+    total += (squares / says.max(1) - (sum / says.max(1)).square()).max(0).sqrt().sum(),
+        count += static_cast<double>(L);
   }
   return total / std::max(count, 1.0) / target_steps * model.reach;
 }

@@ -20,12 +20,14 @@ int32_t feature_count(const TrainParams& params) {
          (params.oriented ? frame_copies * frame_components : 0);
 }
 
-RowMatrixf features_of(const SurfaceAnalysis& analysis, int32_t count, const TrainParams& params, const Matrix3& frame) {
+RowMatrixf features_of(const SurfaceAnalysis& analysis, int32_t count, const TrainParams& params,
+                       const Matrix3& frame) {
   RowMatrixf result(count, feature_count(params));
   const Eigen::Index signature = analysis.descriptors.cols();
   result.leftCols(signature) = analysis.descriptors.topRows(count);
   if (params.preset == Preset::paper) return result;
-  const Vector3 centre = analysis.surface().positions.transpose() * analysis.operators.mass / analysis.operators.mass.sum();
+  const Vector3 centre =
+      analysis.surface().positions.transpose() * analysis.operators.mass / analysis.operators.mass.sum();
   for (int32_t s = 0; s < count; ++s) {
     const int32_t v = analysis.samples[s];
     Eigen::Index at = signature;

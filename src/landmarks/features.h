@@ -9,6 +9,7 @@ int32_t feature_count(const TrainParams& params);
 
 // One row for each of the first `count` samples. frame: turns directions of the surface's coordinates into the body's (+Y up, +Z
 // front); it matters only where params.oriented.
-RowMatrixf features_of(const SurfaceAnalysis& analysis, int32_t count, const TrainParams& params, const Matrix3& frame);
+RowMatrixf features_of(const SurfaceAnalysis& analysis, int32_t count, const TrainParams& params,
+                       const Matrix3& frame);
 
 }  // namespace focal

@@ -7,8 +7,8 @@
 
 #include "base/archive.h"
 #include "base/error.h"
-#include "descriptors/bulge.h"
 #include "descriptors/descriptor.h"
+#include "landmarks/exemplar_section.h"
 #include "landmarks/features.h"
 #include "landmarks/forest_file.h"
 #include "landmarks/method_section.h"
@@ -132,8 +132,8 @@ void read_forests(ByteReader in, LandmarkModel& model) {
   const LeafKind leaves = default_preset ? LeafKind::samples : LeafKind::means;
   const auto samples = static_cast<int32_t>(model.targets.rows());
   for (int32_t f = 0; f < count; ++f)
-    model.forests.push_back(read_forest(in, leaves, model.params.tree_count, samples,
-                                        feature_count(model.params)));
+    model.forests.push_back(
+        read_forest(in, leaves, model.params.tree_count, samples, feature_count(model.params)));
   in.expect_end();
 }
 
@@ -330,53 +330,6 @@ void read_features(ByteReader in, LandmarkModel& model) {
   in.expect_end();
 }
 
-// --- EXMP: the shapes of the atlas one by one: which samples are theirs, how they bulge, where their marks lie to each other
-
-constexpr float bulge_steps = 32767, direction_steps = 127, most_direction = 2;
-
-void write_exemplars(const LandmarkModel& model, ByteWriter& out) {
-  const auto L = static_cast<Eigen::Index>(model.landmark_names.size());
-  for (const int32_t shape : model.sample_shape) out.u16(static_cast<uint16_t>(shape));
-  for (const AtlasShape& shape : model.atlas) {
-    out.u8(static_cast<uint8_t>(shape.bulge.cols()));
-    for (const float value : shape.bulge.reshaped<Eigen::RowMajor>())
-      out.u16(static_cast<uint16_t>(std::lround(std::clamp(value, -1.0F, 1.0F) * bulge_steps) + bulge_steps));
-    const ConstellationSample& sample = shape.constellation;
-    out.u8(sample.handed);
-    for (Eigen::Index i = 0; i < L * L; ++i) {
-      out.f32(sample.distance.data()[i]);
-      for (const RowMatrixf* way : {&sample.directions.x, &sample.directions.y})
-        out.u8(static_cast<uint8_t>(
-            std::lround(std::clamp(way->data()[i] / most_direction, -1.0F, 1.0F) * direction_steps) + direction_steps));
-    }
-  }
-}
-
-void read_exemplars(ByteReader in, LandmarkModel& model) {
-  const auto L = static_cast<Eigen::Index>(model.landmark_names.size());
-  const auto shapes = static_cast<int32_t>(model.atlas.size());
-  for (Eigen::Index s = 0; s < model.targets.rows(); ++s) {
-    model.sample_shape.push_back(in.u16("shape of a sample"));
-    if (model.sample_shape.back() >= shapes) in.fail("a sample is of no shape");
-  }
-  for (AtlasShape& shape : model.atlas) {
-    const int32_t radii = in.u8("radii");
-    if (radii != 0 && radii != static_cast<int32_t>(bulge_radii.size())) in.fail("the radii are not those of the method");
-    shape.bulge.resize(shape.distances.rows(), radii);
-    for (float& value : shape.bulge.reshaped<Eigen::RowMajor>()) value = (static_cast<float>(in.u16("bulge")) - bulge_steps) / bulge_steps;
-    ConstellationSample& sample = shape.constellation;
-    sample.present = shape.marked;
-    sample.handed = in.u8("handed") != 0;
-    sample.distance.resize(L, L), sample.directions.x.resize(L, L), sample.directions.y.resize(L, L);
-    for (Eigen::Index i = 0; i < L * L; ++i) {
-      sample.distance.data()[i] = in.f32("distance of landmarks", 0, longest);
-      for (RowMatrixf* way : {&sample.directions.x, &sample.directions.y})
-        way->data()[i] = (static_cast<float>(in.u8("direction")) - direction_steps) / direction_steps * most_direction;
-    }
-  }
-  in.expect_end();
-}
-
 // Reading goes in this order: what later sections are checked against comes first.
 struct Section {
   const char* name;
@@ -384,11 +337,15 @@ struct Section {
   void (*read)(ByteReader, LandmarkModel&);
 };
 constexpr Section sections[] = {
-    {"INFO", write_info, read_info},         {"FEAT", write_features, read_features},
+    {"INFO", write_info, read_info},
+    {"FEAT", write_features, read_features},
     {"TRGT", write_targets, read_targets},
-    {"FRST", write_forests, read_forests},   {"CNST", write_constellation, read_constellation},
-    {"ATLS", write_atlas, read_atlas},       {"CALB", write_calibration, read_calibration},
-    {"SKEL", write_skeleton, read_skeleton}, {"EXMP", write_exemplars, read_exemplars},
+    {"FRST", write_forests, read_forests},
+    {"CNST", write_constellation, read_constellation},
+    {"ATLS", write_atlas, read_atlas},
+    {"CALB", write_calibration, read_calibration},
+    {"SKEL", write_skeleton, read_skeleton},
+    {"EXMP", write_exemplars, read_exemplars},
 };
 
 // Models of marked shapes have no skeleton, those of preset paper and of old versions no features and exemplars: their files lack the
@@ -425,8 +382,7 @@ LandmarkModel parse_model(std::span<const std::byte> file) {
   model.params.bulge = model.params.oriented = false;  // unless the file says so
   model.params.descriptor = method.descriptor, model.params.distance = method.distance;
   for (const Section& section : sections)
-    if (!may_lack(section) || archive.has(section.name))
-      section.read(archive.section(section.name), model);
+    if (!may_lack(section) || archive.has(section.name)) section.read(archive.section(section.name), model);
   return model;
 }
 

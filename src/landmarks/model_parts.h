@@ -52,7 +52,8 @@ struct LandmarkModel : std::enable_shared_from_this<LandmarkModel> {
   std::vector<RegressionForest> forests;
   TargetMatrix targets;  // samples x landmarks
   float reach = 0;       // largest target, of sqrt(area)
-  std::vector<int32_t> sample_shape;  // per row of targets: the shape of the atlas that it is of, or a copy of; empty in old models
+  std::vector<int32_t>
+      sample_shape;  // per row of targets: the shape of the atlas that it is of, or a copy of; empty in old models
   std::vector<AtlasShape> atlas;
   ConstellationStatistics constellation;
   Calibration calibration;

@@ -6,7 +6,8 @@ TrainParams TrainParams::from_preset(Preset preset) {
   TrainParams params;
   params.preset = preset;
   if (preset == Preset::paper)
-    params.eigenpair_count = 200, params.proxy_vertices = 0, params.sampling_rate = 0.5, params.bulge = params.oriented = false;
+    params.eigenpair_count = 200, params.proxy_vertices = 0, params.sampling_rate = 0.5,
+    params.bulge = params.oriented = false;
   return params;  // the other numbers of Xia et al. 2016, Section 5, serve both presets
 }
 

@@ -31,13 +31,13 @@ struct Placement {
       fixed;  // its known place, which nothing moves; empty: none is known
   bool is_fixed(size_t landmark) const { return !fixed.empty() && fixed[landmark].has_value(); }
   std::vector<Evidence> evidence;
-  std::vector<int32_t> exemplars;  // training shapes that were asked, see landmarks/exemplars.h
-  std::vector<ShapeMap> maps;      // from them, with quality `best`
-  float map_residual = 0;  // mean of these maps; 0 without
-  float bulge_agreement = 0;  // mean of the maps, see bulge_agreement
+  std::vector<int32_t> exemplars;       // training shapes that were asked, see landmarks/exemplars.h
+  std::vector<ShapeMap> maps;           // from them, with quality `best`
+  float map_residual = 0;               // mean of these maps; 0 without
+  float bulge_agreement = 0;            // mean of the maps, see bulge_agreement
   Matrix3 frame = Matrix3::Identity();  // the orientation that it supposes, see features_of
   double runner_up = 0;  // how much more another configuration costs; infinite: none comes near
-  RowMatrixf votes;        // vertices of the analysed surface x landmarks
+  RowMatrixf votes;      // vertices of the analysed surface x landmarks
 };
 
 // sample_limit: at most so many of the analysis' samples vote. frame: the orientation of the body, where it is known.

@@ -133,7 +133,8 @@ void make_solvers(SurfaceAnalysis& analysis, const Execution& execution) {
 void describe_relief(SurfaceAnalysis& analysis, const Execution& execution) {
   analysis.normals = area_normals(analysis.surface());
   analysis.normals.rowwise().normalize();
-  if (!analysis.normals.allFinite()) analysis.normals = analysis.normals.array().isFinite().select(analysis.normals, 0);
+  if (!analysis.normals.allFinite())
+    analysis.normals = analysis.normals.array().isFinite().select(analysis.normals, 0);
   if (!analysis.params.to_the_letter)
     analysis.bulge = bulge(analysis.surface(), analysis.normals, analysis.operators.mass, execution);
 }

@@ -22,8 +22,8 @@ enum class AnalysedSurface : int32_t {
 
 struct PrepareParams {
   AnalysedSurface analysed = AnalysedSurface::automatic;
-  bool weld = true;               // merge vertices of exactly equal position
-  bool drop_degenerate = true;    // drop triangles with a repeated corner, and repeated triangles
+  bool weld = true;             // merge vertices of exactly equal position
+  bool drop_degenerate = true;  // drop triangles with a repeated corner, and repeated triangles
   // Leave out triangles with a NaN or infinite corner or an index out of range, instead of refusing the mesh.
   bool lenient = false;
   // Look at the topology and turn triangles over where they disagree; not needed for what is made of a prepared surface.

@@ -28,12 +28,14 @@ template <class Visit>
 void visit_within(const std::array<Eigen::Vector2d, 3>& t, const Visit& visit) {
   const double area = (t[1] - t[0]).x() * (t[2] - t[0]).y() - (t[1] - t[0]).y() * (t[2] - t[0]).x();
   if (area == 0) return;
-  const auto low = t[0].cwiseMin(t[1]).cwiseMin(t[2]).eval(), high = t[0].cwiseMax(t[1]).cwiseMax(t[2]).eval();
+  const auto low = t[0].cwiseMin(t[1]).cwiseMin(t[2]).eval(),
+             high = t[0].cwiseMax(t[1]).cwiseMax(t[2]).eval();
   for (auto row = static_cast<int32_t>(std::ceil(low.y())); row <= high.y(); ++row)
     for (auto column = static_cast<int32_t>(std::ceil(low.x())); column <= high.x(); ++column) {
       const Eigen::Vector2d p(column, row);
       const bool side = is_left(t[0], t[1], p);
-      if (is_left(t[1], t[2], p) == side && is_left(t[2], t[0], p) == side && side == (area > 0)) visit(column, row);
+      if (is_left(t[1], t[2], p) == side && is_left(t[2], t[0], p) == side && side == (area > 0))
+        visit(column, row);
     }
 }
 
@@ -56,12 +58,14 @@ SolidGrid::SolidGrid(const TriangleMesh& mesh, double cell, const Execution& exe
 
 void SolidGrid::choose_grid(const TriangleMesh& mesh) {
   constexpr double most_cells = 6e6;
-  const Vector3 low = mesh.positions.colwise().minCoeff(), extent = mesh.positions.colwise().maxCoeff() - low.transpose();
+  const Vector3 low = mesh.positions.colwise().minCoeff(),
+                extent = mesh.positions.colwise().maxCoeff() - low.transpose();
   double count = 0;
   for (;; cell_ *= 1.02) {
     count = 1;
     for (int a = 0; a < 3; ++a) {
-      size_[a] = static_cast<int32_t>(std::ceil(extent[a] / cell_)) + 2 * rim + 1;
+      // The longest side often has a whole number of cells: no rounding of it may add one, which would move the lattice by half.
+      size_[a] = static_cast<int32_t>(std::ceil(extent[a] / cell_ - 0.01)) + 2 * rim + 1;
       count *= size_[a];
     }
     if (count <= most_cells) break;
@@ -74,7 +78,8 @@ void SolidGrid::choose_grid(const TriangleMesh& mesh) {
 }
 
 std::array<int32_t, 3> SolidGrid::place(int64_t i) const {
-  return {static_cast<int32_t>(i % size_[0]), static_cast<int32_t>(i / step_[1] % size_[1]), static_cast<int32_t>(i / step_[2])};
+  return {static_cast<int32_t>(i % size_[0]), static_cast<int32_t>(i / step_[1] % size_[1]),
+          static_cast<int32_t>(i / step_[2])};
 }
 
 Vector3 SolidGrid::centre(int64_t i) const {
@@ -103,11 +108,13 @@ SolidGrid::Lines SolidGrid::cast_lines(const TriangleMesh& mesh, int axis) const
     }
     const Vector3 normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
     visit_within(flat, [&](int32_t column, int32_t row) {
-      const double at = corner[0][axis] - (normal[u] * (column - flat[0].x()) + normal[v] * (row - flat[0].y())) / normal[axis];
+      const double at = corner[0][axis] -
+                        (normal[u] * (column - flat[0].x()) + normal[v] * (row - flat[0].y())) / normal[axis];
       const double low = std::min({corner[0][axis], corner[1][axis], corner[2][axis]}),
                    high = std::max({corner[0][axis], corner[1][axis], corner[2][axis]});
-      met.push_back({column + static_cast<int64_t>(size_[u]) * row,
-                     {static_cast<float>(std::clamp(at, low, high)), static_cast<int8_t>(normal[axis] > 0 ? 1 : -1)}});
+      met.push_back(
+          {column + static_cast<int64_t>(size_[u]) * row,
+           {static_cast<float>(std::clamp(at, low, high)), static_cast<int8_t>(normal[axis] > 0 ? 1 : -1)}});
     });
   }
   Lines lines;
@@ -119,7 +126,9 @@ SolidGrid::Lines SolidGrid::cast_lines(const TriangleMesh& mesh, int axis) const
   for (const Met& one : met) lines.crossings[next[one.line]++] = one.crossing;
   for (size_t l = 0; l + 1 < lines.start.size(); ++l)
     std::sort(lines.crossings.begin() + lines.start[l], lines.crossings.begin() + lines.start[l + 1],
-              [](const Crossing& a, const Crossing& b) { return a.at < b.at || (a.at == b.at && a.exits < b.exits); });
+              [](const Crossing& a, const Crossing& b) {
+                return a.at < b.at || (a.at == b.at && a.exits < b.exits);
+              });
   return lines;
 }
 
@@ -155,7 +164,8 @@ void SolidGrid::fill_enclosed() {
         const int64_t l = column + static_cast<int64_t>(size_[u]) * row;
         const int64_t first = column * step_[u] + row * step_[v];
         for (int32_t k = lines_[axis].start[l]; k < lines_[axis].start[l + 1]; ++k)
-          blocked[first + static_cast<int64_t>(std::floor(lines_[axis].crossings[k].at)) * step_[axis]] |= 1 << axis;
+          blocked[first + static_cast<int64_t>(std::floor(lines_[axis].crossings[k].at)) * step_[axis]] |=
+              1 << axis;
       }
   }
   fill_unreached(blocked);
@@ -203,14 +213,17 @@ void SolidGrid::add_sheets(const TriangleMesh& mesh) {
   };
   for (int32_t t = 0; t < mesh.triangle_count(); ++t) {
     std::array<Vector3, 3> corner;
-    for (int c = 0; c < 3; ++c) corner[c] = (mesh.positions.row(mesh.triangles(t, c)).transpose() - origin_) / cell_;
+    for (int c = 0; c < 3; ++c)
+      corner[c] = (mesh.positions.row(mesh.triangles(t, c)).transpose() - origin_) / cell_;
     const Vector3 ab = corner[1] - corner[0], ac = corner[2] - corner[0];
     const Vector3 side = beside * ab.cross(ac).stableNormalized();
-    const auto steps = static_cast<int32_t>(std::ceil(std::max({ab.norm(), ac.norm(), (ac - ab).norm()}) / spacing)) + 1;
+    const auto steps =
+        static_cast<int32_t>(std::ceil(std::max({ab.norm(), ac.norm(), (ac - ab).norm()}) / spacing)) + 1;
     for (int32_t i = 0; i <= steps; ++i)
       for (int32_t j = 0; i + j <= steps; ++j) {
         const Vector3 p = corner[0] + (ab * i + ac * j) / steps;
-        if (!solid_[cell_at(p)] && !solid_[cell_at(p + side)] && !solid_[cell_at(p - side)]) added.push_back(cell_at(p));
+        if (!solid_[cell_at(p)] && !solid_[cell_at(p + side)] && !solid_[cell_at(p - side)])
+          added.push_back(cell_at(p));
       }
   }
   for (const int64_t i : added) solid_[i] = 1;
@@ -296,7 +309,8 @@ void SolidGrid::join_parts(int32_t& bridged, int32_t& left_out) {
       const auto [other, squared] = search.nearest({at[0] + 0.0, at[1] + 0.0, at[2] + 0.0});
       if (squared < least) least = squared, link = {i, joined[other]};
     }
-    if (std::sqrt(least) > most && static_cast<double>(sizes[order[o]]) < small * static_cast<double>(sizes[order[0]])) {
+    if (std::sqrt(least) > most &&
+        static_cast<double>(sizes[order[o]]) < small * static_cast<double>(sizes[order[0]])) {
       ++left_out;
       for (int64_t i = 0; i < cell_count(); ++i)
         if (part[i] == order[o]) solid_[i] = 0;
@@ -308,10 +322,12 @@ void SolidGrid::join_parts(int32_t& bridged, int32_t& left_out) {
     const int32_t radius = std::sqrt(least) < 3 ? 0 : 1;
     for (int32_t s = 0; s <= steps; ++s) {
       std::array<int32_t, 3> at;
-      for (int k = 0; k < 3; ++k) at[k] = static_cast<int32_t>(std::lround(a[k] + (b[k] - a[k]) * static_cast<double>(s) / steps));
+      for (int k = 0; k < 3; ++k)
+        at[k] = static_cast<int32_t>(std::lround(a[k] + (b[k] - a[k]) * static_cast<double>(s) / steps));
       for (int32_t dz = -radius; dz <= radius; ++dz)
         for (int32_t dy = -radius; dy <= radius; ++dy)
-          for (int32_t dx = -radius; dx <= radius; ++dx) solid_[index(at[0] + dx, at[1] + dy, at[2] + dz)] = 1;
+          for (int32_t dx = -radius; dx <= radius; ++dx)
+            solid_[index(at[0] + dx, at[1] + dy, at[2] + dz)] = 1;
     }
     joined.insert(joined.end(), own.begin(), own.end());
   }
@@ -328,7 +344,8 @@ std::array<uint8_t, 256> fillings() {
     for (int axis = 0; axis < 3; ++axis)
       for (int side = 0; side < 2; ++side) {  // a face of four corners: diagonal pairs
         const int u = 1 << (axis + 1) % 3, v = 1 << (axis + 2) % 3, base = side << axis;
-        const bool a = has(bits, base), b = has(bits, base + u), c = has(bits, base + v), d = has(bits, base + u + v);
+        const bool a = has(bits, base), b = has(bits, base + u), c = has(bits, base + v),
+                   d = has(bits, base + u + v);
         if (a && d && !b && !c) fill |= 1 << (base + u);
         if (b && c && !a && !d) fill |= 1 << base;
       }

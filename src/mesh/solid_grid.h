@@ -29,7 +29,9 @@ class SolidGrid {
     return x + size_[0] * (y + static_cast<int64_t>(size_[1]) * z);
   }
   Vector3 centre(int64_t i) const;
-  int64_t offset(int corner) const { return (corner & 1) + ((corner >> 1) & 1) * step_[1] + (corner >> 2) * step_[2]; }
+  int64_t offset(int corner) const {
+    return (corner & 1) + ((corner >> 1) & 1) * step_[1] + (corner >> 2) * step_[2];
+  }
   bool is_solid(int64_t i) const { return solid_[i] != 0; }
   // One bit a corner of the cube whose lowest cell is i.
   int corners(int64_t i) const {

@@ -12,9 +12,18 @@ namespace focal {
 namespace {
 
 // Corner k of a cube of cells lies at (k & 1, k >> 1 & 1, k >> 2).
-constexpr std::array<std::array<int, 2>, 12> cube_edges = {{{0, 1}, {2, 3}, {4, 5}, {6, 7},    // along x
-                                                            {0, 2}, {1, 3}, {4, 6}, {5, 7},    // y
-                                                            {0, 4}, {1, 5}, {2, 6}, {3, 7}}};  // z
+constexpr std::array<std::array<int, 2>, 12> cube_edges = {{{0, 1},
+                                                            {2, 3},
+                                                            {4, 5},
+                                                            {6, 7},  // along x
+                                                            {0, 2},
+                                                            {1, 3},
+                                                            {4, 6},
+                                                            {5, 7},  // y
+                                                            {0, 4},
+                                                            {1, 5},
+                                                            {2, 6},
+                                                            {3, 7}}};  // z
 
 // Vertices of the net, one a cube of cells that holds both kinds.
 class SurfaceNet {
@@ -47,7 +56,8 @@ class SurfaceNet {
         if (!crossing) exact_[v] = 0;
         sum += at, ++count;
       }
-      mesh_.positions.row(static_cast<Eigen::Index>(v)) = (grid_.centre(cubes_[v]) + grid_.cell() * sum / count).transpose();
+      mesh_.positions.row(static_cast<Eigen::Index>(v)) =
+          (grid_.centre(cubes_[v]) + grid_.cell() * sum / count).transpose();
     }
   }
 
@@ -61,7 +71,8 @@ class SurfaceNet {
         const bool from = grid_.is_solid(cube), to = grid_.is_solid(cube + step[axis]);
         if (from == to) continue;
         const int64_t u = step[(axis + 1) % 3], v = step[(axis + 2) % 3];
-        std::array<int32_t, 4> corner = {vertex_[cube], vertex_[cube - u], vertex_[cube - u - v], vertex_[cube - v]};
+        std::array<int32_t, 4> corner = {vertex_[cube], vertex_[cube - u], vertex_[cube - u - v],
+                                         vertex_[cube - v]};
         if (!from) std::swap(corner[1], corner[3]);
         add_quadrilateral(corner, triangles);
       }
@@ -70,7 +81,8 @@ class SurfaceNet {
       for (int c = 0; c < 3; ++c) mesh_.triangles(static_cast<Eigen::Index>(t), c) = triangles[t][c];
   }
 
-  void add_quadrilateral(const std::array<int32_t, 4>& q, std::vector<std::array<int32_t, 3>>& triangles) const {
+  void add_quadrilateral(const std::array<int32_t, 4>& q,
+                         std::vector<std::array<int32_t, 3>>& triangles) const {
     const auto length = [&](int a, int b) {
       return (mesh_.positions.row(q[a]) - mesh_.positions.row(q[b])).squaredNorm();
     };
@@ -104,14 +116,16 @@ class SurfaceNet {
   TriangleMesh mesh_;
   std::vector<int64_t> cubes_;   // per vertex
   std::vector<int32_t> vertex_;  // per cell: of the cube whose lowest cell it is, or -1
-  std::vector<char> exact_;  // per vertex: triangles of the input say where it lies
+  std::vector<char> exact_;      // per vertex: triangles of the input say where it lies
 };
 
 }  // namespace
 
 WrappedMesh wrap(const TriangleMesh& mesh, const WrapParams& params, const Execution& execution) {
-  const double longest = (mesh.positions.colwise().maxCoeff() - mesh.positions.colwise().minCoeff()).maxCoeff();
-  SolidGrid grid(mesh, std::max(longest / params.cells, std::sqrt(surface_area(mesh) / params.area_cells)), execution);
+  const double longest =
+      (mesh.positions.colwise().maxCoeff() - mesh.positions.colwise().minCoeff()).maxCoeff();
+  SolidGrid grid(mesh, std::max(longest / params.cells, std::sqrt(surface_area(mesh) / params.area_cells)),
+                 execution);
   WrappedMesh result;
   result.cell = grid.cell();
   grid.make_manifold();

@@ -9,7 +9,8 @@ The package stands on focal's shared library through ctypes and needs nothing el
 come as arrays. Positions and lengths are in the units of your mesh; vertex and triangle numbers are those of your mesh,
 from 0. All objects but TrainingSet may be used by any number of threads at once; calls let other Python threads run.
 """
-from ._abi import Backend, BoneNames, Descriptor, Distance, LandmarkStatus, LogLevel, Preset, Quality, Segmentation, Status
+from ._abi import (Backend, BoneNames, Descriptor, Distance, LandmarkStatus, LogLevel, Preset, Quality, Segmentation, Status,
+                   Surface)
 from ._context import Context
 from ._correspondence import Correspondence
 from ._detection import Detection, Landmark, Place
@@ -27,8 +28,8 @@ __version__ = ".".join(map(str, VERSION))
 __all__ = [
     "Analysis", "Backend", "BoneNames", "Cancelled", "Context", "Correspondence", "Descriptor", "Detection", "Distance",
     "Error", "Joint", "Landmark", "LandmarkStatus", "LibraryError", "LogLevel", "Mesh", "Model", "NO_TRIANGLE", "Place",
-    "Preset", "Quality", "Segmentation", "Skeleton", "Status", "SurfacePoint", "SymmetryPlane", "Task", "TrainingSet",
-    "descriptors", "distances", "load_library", "peak_memory_bytes", "version",
+    "Preset", "Quality", "Segmentation", "Skeleton", "Status", "Surface", "SurfacePoint", "SymmetryPlane", "Task",
+    "TrainingSet", "descriptors", "distances", "load_library", "peak_memory_bytes", "version",
 ]
 
 for _name in __all__:  # shown, and pickled, by the name that users know

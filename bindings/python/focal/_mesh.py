@@ -35,7 +35,10 @@ class Mesh(Handle):
     faces     (m, 3) vertex numbers from 0, counter-clockwise seen from outside
     weld               merge vertices of exactly equal position. Default True
     drop_degenerate    drop triangles with a repeated corner and repeated triangles. Default True
-    bridge_components  link the parts of a many-part character for the analysis. Default True
+    surface            what is analysed, a focal.Surface or its name: "as-is" the mesh's own triangles, separate parts
+                       linked at their nearest vertices; "wrapped" one closed surface round everything that the mesh
+                       shows from outside (models of preset default only); "auto", the default, wraps where the mesh has
+                       several parts or many edges of more than two triangles. Results always lie on your triangles
     lenient            leave out triangles with a NaN or infinite corner or a vertex number out of range, with a
                        warning, instead of raising an error. Default False
     max_vertices, max_triangles  larger meshes are refused. Defaults 5,000,000 and 10,000,000
@@ -51,7 +54,7 @@ class Mesh(Handle):
     _kind = "mesh"
 
     def __init__(self, vertices: Any, faces: Any, *, weld: bool | None = None, drop_degenerate: bool | None = None,
-                 surface: Surface | int | None = None, lenient: bool | None = None,
+                 surface: _abi.Surface | str | None = None, lenient: bool | None = None,
                  max_vertices: int | None = None, max_triangles: int | None = None,
                  context: Context | None = None, task: Task | None = None) -> None:
         positions = block_of(vertices, "vertices", "f", 3)
@@ -67,7 +70,7 @@ class Mesh(Handle):
 
     @classmethod
     def load(cls, path: str | os.PathLike[str], *, weld: bool | None = None, drop_degenerate: bool | None = None,
-             surface: Surface | int | None = None, lenient: bool | None = None,
+             surface: _abi.Surface | str | None = None, lenient: bool | None = None,
              allow_external_files: bool | None = None,
              keep_source_file: bool | None = None, max_vertices: int | None = None,
              max_triangles: int | None = None, max_nodes: int | None = None, max_json_bytes: int | None = None,
@@ -94,7 +97,7 @@ class Mesh(Handle):
 
     @classmethod
     def from_bytes(cls, data: Any, *, weld: bool | None = None, drop_degenerate: bool | None = None,
-                   surface: Surface | int | None = None, lenient: bool | None = None,
+                   surface: _abi.Surface | str | None = None, lenient: bool | None = None,
                    keep_source_file: bool | None = None,
                    max_vertices: int | None = None, max_triangles: int | None = None, max_nodes: int | None = None,
                    max_json_bytes: int | None = None, max_file_bytes: int | None = None,

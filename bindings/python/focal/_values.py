@@ -18,7 +18,7 @@ _RANGES = {
     ctypes.c_uint32: (0, 2**32 - 1),
     ctypes.c_uint64: (0, 2**64 - 1),
 }
-_ENUMS = {"preset": _abi.Preset, "backend": _abi.Backend, "quality": _abi.Quality}
+_ENUMS = {"preset": _abi.Preset, "backend": _abi.Backend, "quality": _abi.Quality, "surface": _abi.Surface}
 
 
 class SurfacePoint(NamedTuple):
