@@ -37,8 +37,8 @@ TEST_CASE("bulge: of a sphere -r / 4R at every point, of its inside the opposite
     const Eigen::VectorXf column = outside.col(static_cast<Eigen::Index>(r));
     CAPTURE(bulge_radii[r]);
     CHECK(column.mean() == doctest::Approx(truth).epsilon(0.02));
-    CHECK((column.array() - static_cast<float>(truth)).abs().maxCoeff() <
-          0.2 * std::abs(truth));  // few points within the least
+    const double scatter = r == 0 ? 0.4 : 0.2;  // a dozen points lie within the least radius
+    CHECK((column.array() - static_cast<float>(truth)).abs().maxCoeff() < scatter * std::abs(truth));
     CHECK(column.isApprox(-inside.col(static_cast<Eigen::Index>(r)), 1e-5F));
   }
 }
