@@ -190,16 +190,16 @@ typedef struct focal_surface_point {
 /* What is analysed of a mesh. Landmarks, joints and weights always come back on the caller's own triangles. */
 typedef int32_t focal_surface;
 enum {
-  FOCAL_SURFACE_AUTO = 0,   /* WRAPPED where the mesh has several parts or many edges of more than two triangles */
+  FOCAL_SURFACE_AUTO = 0,   /* WRAPPED for several parts, or many edges of more than two triangles */
   FOCAL_SURFACE_AS_IS = 1,  /* its own triangles; separate parts are linked at their nearest vertices */
-  FOCAL_SURFACE_WRAPPED = 2 /* one closed surface round everything that the mesh shows from outside; default preset only */
+  FOCAL_SURFACE_WRAPPED = 2 /* one closed surface round all that shows from outside; preset default only */
 };
 
 typedef struct focal_mesh_params {
   uint32_t struct_size;
-  int32_t weld;              /* merge vertices of exactly equal position (UV and normal splits). Default 1 */
-  int32_t drop_degenerate;   /* drop triangles with a repeated corner and repeated triangles. Default 1 */
-  focal_surface surface;     /* Default AUTO */
+  int32_t weld;            /* merge vertices of exactly equal position (UV and normal splits). Default 1 */
+  int32_t drop_degenerate; /* drop triangles with a repeated corner and repeated triangles. Default 1 */
+  focal_surface surface;   /* Default AUTO */
   /* The rest concerns glTF files only. */
   int32_t allow_external_files; /* also read .bin files beside a .gltf, inside its folder only. Default 0 */
   int32_t keep_source_file;     /* keep the file's bytes, so that results can be written into it. Default 1 */
@@ -619,7 +619,7 @@ FOCAL_API focal_status focal_detection_votes(const focal_detection* detection, u
                                              uint64_t vertex_count, float* out_votes);
 
 /* Geodesic distances along the surface from one landmark's place, absent or not, to each of the caller's
- * vertices, in the mesh's units: INFINITY where no triangle uses the vertex or no way leads there. The
+ * vertices, in the mesh's units: INFINITY where no triangle uses the vertex. The
  * first call takes about 50 ms, each further one 10 ms. vertex_count must be the mesh's. INVALID_LANDMARK
  * when the landmark has no place at all. */
 FOCAL_API focal_status focal_detection_distances(const focal_detection* detection, uint32_t index,

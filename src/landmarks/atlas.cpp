@@ -8,6 +8,7 @@
 
 #include "landmarks/backend_surface.h"
 #include "landmarks/embedded_surface.h"
+#include "landmarks/exemplar_section.h"
 #include "mesh/nearest_vertex.h"
 
 namespace focal {
@@ -215,6 +216,7 @@ AtlasShape remember_shape(const SurfaceAnalysis& analysis,
   }
   shape.bulge.resize(count, analysis.bulge.cols());
   for (Eigen::Index i = 0; i < count; ++i) shape.bulge.row(i) = analysis.bulge.row(spread[i]);
+  for (float& value : shape.bulge.reshaped()) value = kept_bulge(value);
   shape.step = std::max(shape.samples.Phi.cwiseAbs().maxCoeff(), 1e-6f) / (atlas_zero - 1);
   for (float& value : shape.samples.Phi.reshaped()) value = std::round(value / shape.step) * shape.step;
   if (rig) remember_rig(analysis, spread, *rig, shape);
@@ -255,7 +257,7 @@ void find_exact_images(std::vector<ShapeMap>& maps, const std::vector<AtlasShape
 
 float bulge_agreement(const AtlasShape& shape, const FunctionalMap& map, const SurfaceAnalysis& analysis) {
   const Eigen::Index points = shape.bulge.rows();
-  if (points == 0 || analysis.bulge.rows() == 0) return 0;
+  if (shape.bulge.size() == 0 || analysis.bulge.rows() == 0) return 0;
   const Eigen::VectorXf weight = shape.samples.weight.head(points) / shape.samples.weight.head(points).sum();
   float sum = 0;
   for (Eigen::Index r = 0; r < shape.bulge.cols(); ++r) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "landmarks/exemplar_section.h"
+
 namespace focal {
 namespace {
 
@@ -40,7 +42,11 @@ ConstellationStatistics statistics_of(const LandmarkModel& model, std::span<cons
   if (exemplars.size() == model.atlas.size() || model.atlas[0].constellation.present.empty())
     return model.constellation;
   std::vector<ConstellationSample> samples;
-  for (const int32_t shape : exemplars) samples.push_back(model.atlas[shape].constellation);
+  for (const int32_t shape : exemplars) {
+    samples.push_back(model.atlas[shape].constellation);
+    for (RowMatrixf* way : {&samples.back().directions.x, &samples.back().directions.y})
+      for (float& value : way->reshaped()) value = kept_direction(value);
+  }
   return learn_constellation(samples, static_cast<int32_t>(model.landmark_names.size()));
 }
 

@@ -7,8 +7,8 @@
 
 #include "base/archive.h"
 #include "base/error.h"
-#include "descriptors/bulge.h"
 #include "descriptors/descriptor.h"
+#include "landmarks/exemplar_section.h"
 #include "landmarks/features.h"
 #include "landmarks/forest_file.h"
 #include "landmarks/method_section.h"
@@ -346,57 +346,6 @@ void read_features(ByteReader in, LandmarkModel& model) {
     const int32_t trees = in.i32("tree count", 1, most);
     model.rising = read_forest(in, LeafKind::samples, trees, rows, invariant_feature_count(model.params));
     model.facing = read_forest(in, LeafKind::samples, trees, rows, upright_feature_count(model.params));
-  }
-  in.expect_end();
-}
-
-// --- EXMP: the shapes of the atlas one by one: which samples are theirs, how they bulge, where their marks lie to each other
-
-constexpr float bulge_steps = 32767, direction_steps = 127, most_direction = 2;
-
-void write_exemplars(const LandmarkModel& model, ByteWriter& out) {
-  const auto L = static_cast<Eigen::Index>(model.landmark_names.size());
-  for (const int32_t shape : model.sample_shape) out.u16(static_cast<uint16_t>(shape));
-  for (const AtlasShape& shape : model.atlas) {
-    out.u8(static_cast<uint8_t>(shape.bulge.cols()));
-    for (const float value : shape.bulge.reshaped<Eigen::RowMajor>())
-      out.u16(static_cast<uint16_t>(std::lround(std::clamp(value, -1.0F, 1.0F) * bulge_steps) + bulge_steps));
-    const ConstellationSample& sample = shape.constellation;
-    out.u8(sample.handed);
-    for (Eigen::Index i = 0; i < L * L; ++i) {
-      out.f32(sample.distance.data()[i]);
-      for (const RowMatrixf* way : {&sample.directions.x, &sample.directions.y})
-        out.u8(static_cast<uint8_t>(
-            std::lround(std::clamp(way->data()[i] / most_direction, -1.0F, 1.0F) * direction_steps) +
-            direction_steps));
-    }
-  }
-}
-
-void read_exemplars(ByteReader in, LandmarkModel& model) {
-  const auto L = static_cast<Eigen::Index>(model.landmark_names.size());
-  const auto shapes = static_cast<int32_t>(model.atlas.size());
-  for (Eigen::Index s = 0; s < model.targets.rows(); ++s) {
-    model.sample_shape.push_back(in.u16("shape of a sample"));
-    if (model.sample_shape.back() >= shapes) in.fail("a sample is of no shape");
-  }
-  for (AtlasShape& shape : model.atlas) {
-    const int32_t radii = in.u8("radii");
-    if (radii != 0 && radii != static_cast<int32_t>(bulge_radii.size()))
-      in.fail("the radii are not those of the method");
-    shape.bulge.resize(shape.distances.rows(), radii);
-    for (float& value : shape.bulge.reshaped<Eigen::RowMajor>())
-      value = (static_cast<float>(in.u16("bulge")) - bulge_steps) / bulge_steps;
-    ConstellationSample& sample = shape.constellation;
-    sample.present = shape.marked;
-    sample.handed = in.u8("handed") != 0;
-    sample.distance.resize(L, L), sample.directions.x.resize(L, L), sample.directions.y.resize(L, L);
-    for (Eigen::Index i = 0; i < L * L; ++i) {
-      sample.distance.data()[i] = in.f32("distance of landmarks", 0, longest);
-      for (RowMatrixf* way : {&sample.directions.x, &sample.directions.y})
-        way->data()[i] =
-            (static_cast<float>(in.u8("direction")) - direction_steps) / direction_steps * most_direction;
-    }
   }
   in.expect_end();
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "mesh/components.h"
 #include "operators/operators.h"
 
 namespace focal {
@@ -12,8 +11,6 @@ DistanceFields::DistanceFields(Proxy proxy, const Execution& execution) : proxy_
   const PreparedMesh& coarse = *proxy_.coarse;
   heat_ = HeatMethod(coarse.surface, make_operators(coarse.surface, coarse.bridges, true), execution);
   places_ = coarse_place_of_vertices(proxy_, execution);
-  Components parts = components_of(coarse.surface);
-  if (parts.count > 1 && coarse.bridges.empty()) part_ = std::move(parts.of_vertex);
 }
 
 std::vector<float> DistanceFields::from(const SurfacePoint& source_point, const Execution& execution) const {
@@ -21,15 +18,11 @@ std::vector<float> DistanceFields::from(const SurfacePoint& source_point, const 
   const auto coarse_start = to_coarse(proxy_, {&start, 1});
   const RowMatrixf field = heat_.distances(coarse_start, execution);
   const MatrixX3i& triangles = proxy_.coarse->surface.triangles;
-  const auto is_reached = [&](int32_t triangle) {
-    return part_.empty() || part_[triangles(triangle, 0)] == part_[triangles(coarse_start[0].triangle, 0)];
-  };
   const auto& surface_vertex = proxy_.full->surface_vertex;
   std::vector<float> result(surface_vertex.size(), std::numeric_limits<float>::infinity());
   for (size_t v = 0; v < result.size(); ++v) {
     if (surface_vertex[v] < 0) continue;
     const SurfacePoint& place = places_[surface_vertex[v]];
-    if (!is_reached(place.triangle)) continue;
     double distance = 0;
     for (int i = 0; i < 3; ++i) distance += place.barycentric[i] * field(0, triangles(place.triangle, i));
     result[v] = static_cast<float>(proxy_.scale() * distance);

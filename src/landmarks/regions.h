@@ -14,15 +14,14 @@ class DistanceFields {
  public:
   DistanceFields(Proxy proxy, const Execution& execution);
 
-  // In the caller's units, one for each vertex of mesh.source; infinity where no triangle uses the vertex or no way leads
-  // there. The point lies on mesh.source, in a triangle that the surface has.
+  // In the caller's units, one for each vertex of mesh.source; infinity where no triangle uses the vertex. The point lies on
+  // mesh.source, in a triangle that the surface has.
   std::vector<float> from(const SurfacePoint& source_point, const Execution& execution) const;
 
  private:
   Proxy proxy_;
   HeatMethod heat_;
   std::vector<SurfacePoint> places_;  // of the full surface's vertices on the coarse one
-  std::vector<int32_t> part_;         // of each coarse vertex; empty: all are connected
 };
 
 // 1 within the radius, 0 beyond, falling from one to the other over the width `border` across it.

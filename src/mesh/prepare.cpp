@@ -185,7 +185,7 @@ void warn(PreparedMesh& mesh) {
     say(std::to_string(dropped) + " degenerate or repeated triangles are ignored");
   if (mesh.components > 1)
     say("the surface has " + std::to_string(mesh.components) + " separate parts; they are analysed as one" +
-        (mesh.bridges.empty() ? "" : ", bridged at the nearest vertices"));
+        (mesh.is_wrapped ? ", by a closed surface round them all" : ", bridged at the nearest vertices"));
   if (mesh.topology) warn_of_topology(mesh);
 }
 
@@ -256,7 +256,7 @@ PreparedMesh prepare(TriangleMesh source, const PrepareParams& params, const Exe
   mesh.is_wrapped = params.analysed == AnalysedSurface::wrapped ||
                     (params.analysed == AnalysedSurface::automatic && needs_wrap(mesh));
   execution.check_cancelled();
-  if (!mesh.is_wrapped) mesh.bridges = bridge_pairs(mesh.surface, components);
+  mesh.bridges = bridge_pairs(mesh.surface, components);
   execution.check_cancelled();
   warn(mesh);
   return mesh;

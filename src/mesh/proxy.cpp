@@ -28,8 +28,8 @@ Vector3 normal_of(const TriangleMesh& mesh, int32_t t) {
 }  // namespace
 
 Proxy make_proxy(std::shared_ptr<const PreparedMesh> mesh, int32_t vertices, const Execution& execution,
-                 bool fills_holes) {
-  if (mesh->is_wrapped) {
+                 bool may_mend) {
+  if (mesh->is_wrapped && may_mend) {
     TriangleMesh shell = wrap(mesh->surface, {}, execution).mesh;
     if (vertices > 0 && shell.vertex_count() > worth_it * vertices)
       shell = decimate(shell, vertices, execution);
@@ -38,7 +38,7 @@ Proxy make_proxy(std::shared_ptr<const PreparedMesh> mesh, int32_t vertices, con
                 std::move(shell), {.analysed = AnalysedSurface::as_it_is, .repair_orientation = false}))};
   }
   const bool may_have_holes = !mesh->topology || mesh->topology->boundary_loops > 0;
-  const FilledMesh filled = fills_holes && may_have_holes ? fill_holes(mesh->surface) : FilledMesh{};
+  const FilledMesh filled = may_mend && may_have_holes ? fill_holes(mesh->surface) : FilledMesh{};
   const TriangleMesh& surface = filled.holes > 0 ? filled.mesh : mesh->surface;
   const bool is_small = vertices == 0 || surface.vertex_count() <= worth_it * vertices;
   if (is_small && filled.holes == 0) return {mesh, mesh};

@@ -22,10 +22,11 @@ struct Proxy {
 };
 
 // vertices: of the proxy, about; 0, or no fewer than the surface has: the surface itself.
-// fills_holes: holes are closed first (see fill_holes). Points of a patch go over to the nearest of the full surface,
-// so nothing is ever found in a hole; a surface without holes is treated as if they stayed.
+// may_mend: the surface is wrapped where mesh->is_wrapped; else its holes are closed first (see fill_holes). Points of a patch or a
+// bridge go over to the nearest of the full surface, so nothing is ever found in a hole; a surface without holes is treated as if they
+// stayed.
 Proxy make_proxy(std::shared_ptr<const PreparedMesh> mesh, int32_t vertices, const Execution& execution = {},
-                 bool fills_holes = false);
+                 bool may_mend = false);
 
 // Nearest points on the other surface, on the side that faces the same way. On full->surface and coarse->surface.
 std::vector<SurfacePoint> to_coarse(const Proxy& proxy, std::span<const SurfacePoint> full_points);

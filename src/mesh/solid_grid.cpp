@@ -64,7 +64,8 @@ void SolidGrid::choose_grid(const TriangleMesh& mesh) {
   for (;; cell_ *= 1.02) {
     count = 1;
     for (int a = 0; a < 3; ++a) {
-      size_[a] = static_cast<int32_t>(std::ceil(extent[a] / cell_)) + 2 * rim + 1;
+      // The longest side often has a whole number of cells: no rounding of it may add one, which would move the lattice by half.
+      size_[a] = static_cast<int32_t>(std::ceil(extent[a] / cell_ - 0.01)) + 2 * rim + 1;
       count *= size_[a];
     }
     if (count <= most_cells) break;

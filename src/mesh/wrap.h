@@ -22,7 +22,8 @@ struct WrappedMesh {
 // Repair of Polygonal Models Using Volumetric Techniques", 2003; signed crossings in place of parity, so that parts may
 // overlap), or when no path leads out of it between the triangles. Open sheets count as one cell thick. The surface is that
 // of surface nets (S. Gibson, "Constrained Elastic Surface Nets", 1998) with vertices at the mean of the exact crossings of
-// the grid's edges. The result depends on the geometry alone, not on how it is cut into triangles.
+// the grid's edges. The result depends on the geometry; how it is cut into triangles moves a cell here and there, where
+// sheets are looked for.
 WrappedMesh wrap(const TriangleMesh& mesh, const WrapParams& params, const Execution& execution);
 
 }  // namespace focal

@@ -8,6 +8,7 @@
 #include "compute/module_loader.h"
 #include "landmarks/backend_surface.h"
 #include "landmarks/detect.h"
+#include "landmarks/features.h"
 #include "mesh/proxy.h"
 #include "subject.h"
 #include "timing.h"
@@ -37,7 +38,9 @@ void time_stages(const Backend& backend, const LandmarkModel& model,
   for (int run = 0; run <= options.runs; ++run) {
     const SurfaceAnalysis analysis = analyse_for(model.params, mesh, {}, on(&backend, 1));
     if (!analysis.on_backend) return std::printf("this mesh is none for the device\n"), void();
-    analysis.on_backend->votes(model, analysis.samples, analysis.descriptors);
+    const auto count = static_cast<int32_t>(analysis.samples.size());
+    analysis.on_backend->votes(model, analysis.samples,
+                               features_of(analysis, count, model.params, Matrix3::Identity()));
     std::map<std::string, ComputeStage> sums;
     for (const ComputeStage& stage : analysis.on_backend->stages()) {
       ComputeStage& sum = sums[stage.name];

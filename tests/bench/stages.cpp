@@ -62,6 +62,7 @@ Peaks find(const Values& values, const Execution& execution) {
 TrainParams full_resolution() {
   TrainParams params = TrainParams::from_preset(Preset::default_preset);
   params.eigenpair_count = 200, params.proxy_vertices = 0, params.sampling_rate = 0.5;
+  params.bulge = false;  // signatures alone, as the stock pipeline has
   return params;
 }
 

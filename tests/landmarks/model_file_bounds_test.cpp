@@ -11,7 +11,7 @@
 #include "landmarks/small_model.h"
 
 using namespace focal;
-using focal_test::patched, focal_test::small_model;
+using focal_test::patched, focal_test::small_model, focal_test::small_model_of_exemplars;
 
 namespace {
 
@@ -211,6 +211,39 @@ TEST_CASE("a skeleton comes back from its bytes, and keeps to its bounds") {
   one.skeleton = {{"root", -1}};
   CHECK(error_of(one) == "");
   check_error(error_of(patched(serialise(one), "SKEL", 0, 0)), "SKEL: joint count");
+}
+
+TEST_CASE("features and exemplars keep to their bounds") {
+  const LandmarkModel model = small_model_of_exemplars();
+  CHECK(error_of(model) == "");
+  check_bounds("EXMP: a sample is of no shape", model,
+               [](LandmarkModel& m, double shape) { m.sample_shape[3] = static_cast<int32_t>(shape); },
+               {0, 1}, {2, 65535});
+  check_bounds("EXMP: distance of landmarks", model,
+               [](LandmarkModel& m, double distance) {
+                 m.atlas[1].constellation.distance(0, 1) = static_cast<float>(distance);
+               },
+               {0, 1000}, {-0.5, 1001, std::numeric_limits<double>::quiet_NaN()});
+  check_bounds("EXMP: the radii are not those of the method", model,
+               [](LandmarkModel& m, double radii) {
+                 m.atlas[0].bulge = RowMatrixf::Zero(5, static_cast<Eigen::Index>(radii));
+               },
+               {0, 4}, {3, 5});
+  // 6 samples, 2 shapes of 1 + 5 x 4 x 2 + 1 + 9 x 6 bytes: one fewer sample leaves bytes over.
+  LandmarkModel fewer = model;
+  fewer.sample_shape.pop_back();
+  CHECK(error_of(fewer).find("EXMP: ") != std::string::npos);
+  // The last component that a tree may test is that of the last feature.
+  check_bounds("FRST: feature", model,
+               [](LandmarkModel& m, double feature) {
+                 m.forests[0].trees[1].feature[2] = static_cast<int32_t>(feature);
+               },
+               {121}, {122, 127});
+  LandmarkModel plain = small_model(Preset::default_preset);
+  plain.forests[0].trees[1].feature[2] = 96;
+  check_error(error_of(plain), "FRST: feature");
+  plain.params.bulge = true;
+  CHECK(error_of(plain) == "");
 }
 
 TEST_CASE("trees are whole, breadth first, and their leaves hold samples") {

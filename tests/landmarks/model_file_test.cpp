@@ -16,10 +16,11 @@
 #include "descriptors/descriptor.h"
 #include "descriptors/si_hks.h"
 #include "geodesics/distance.h"
+#include "landmarks/features.h"
 #include "landmarks/small_model.h"
 
 using namespace focal;
-using focal_test::number_at, focal_test::sign, focal_test::small_model;
+using focal_test::number_at, focal_test::sign, focal_test::small_model, focal_test::small_model_of_exemplars;
 
 namespace {
 
@@ -45,6 +46,16 @@ void check_equal(const TrainParams& a, const TrainParams& b) {
   CHECK(a.seed == b.seed);
   CHECK(a.descriptor == b.descriptor);
   CHECK(a.distance == b.distance);
+  CHECK(a.bulge == b.bulge);
+  CHECK(a.oriented == b.oriented);
+}
+
+void check_equal(const ConstellationSample& a, const ConstellationSample& b) {
+  CHECK(a.present == b.present);
+  CHECK(a.handed == b.handed);
+  CHECK(a.distance == b.distance);
+  CHECK(a.directions.x == b.directions.x);
+  CHECK(a.directions.y == b.directions.y);
 }
 
 void check_equal(const LandmarkModel& a, const LandmarkModel& b) {
@@ -60,6 +71,15 @@ void check_equal(const LandmarkModel& a, const LandmarkModel& b) {
   }
   CHECK(a.targets == b.targets);
   CHECK(a.reach == b.reach);
+  CHECK(a.sample_shape == b.sample_shape);
+  REQUIRE(a.atlas.size() == b.atlas.size());
+  for (size_t s = 0; s < a.atlas.size(); ++s) {
+    CHECK(a.atlas[s].samples.Phi == b.atlas[s].samples.Phi);
+    CHECK(a.atlas[s].distances == b.atlas[s].distances);
+    CHECK(a.atlas[s].marked == b.atlas[s].marked);
+    CHECK(a.atlas[s].bulge == b.atlas[s].bulge);
+    check_equal(a.atlas[s].constellation, b.atlas[s].constellation);
+  }
   CHECK(a.constellation.landmarks == b.constellation.landmarks);
   CHECK(a.constellation.distance_mean == b.constellation.distance_mean);
   CHECK(a.constellation.distance_sd == b.constellation.distance_sd);
@@ -85,7 +105,7 @@ Status status_of(std::span<const std::byte> file) {
 // Everything a detection would index by the model's own numbers.
 void walk(const LandmarkModel& model) {
   Random random(1);
-  std::vector<float> descriptor(si_hks_dimension);
+  std::vector<float> descriptor(feature_count(model.params));
   for (float& value : descriptor) value = static_cast<float>(random.normal());
   for (const RegressionForest& forest : model.forests)
     for (const RegressionTree& tree : forest.trees) {
@@ -98,6 +118,14 @@ void walk(const LandmarkModel& model) {
       for (int32_t i = tree.leaf_start[leaf]; i < tree.leaf_start[leaf + 1]; ++i)
         REQUIRE(tree.leaf_samples.at(i) < model.targets.rows());
     }
+  if (model.sample_shape.empty()) return;
+  REQUIRE(static_cast<Eigen::Index>(model.sample_shape.size()) == model.targets.rows());
+  for (const int32_t shape : model.sample_shape) {
+    const ConstellationSample& sample = model.atlas.at(shape).constellation;
+    REQUIRE(sample.present.size() == model.landmark_names.size());
+    REQUIRE(sample.distance.size() == sample.directions.x.size());
+    REQUIRE(sample.distance.allFinite());
+  }
 }
 
 std::filesystem::path golden_path(const char* name) {
@@ -123,6 +151,11 @@ Bytes read_bytes(const std::filesystem::path& path) {
 
 constexpr std::byte wks_name[] = {std::byte('w'), std::byte('k'), std::byte('s')};
 constexpr Preset presets[] = {Preset::default_preset, Preset::paper};
+
+std::vector<Bytes> files() {
+  return {serialise(small_model(Preset::default_preset)), serialise(small_model(Preset::paper)),
+          serialise(small_model_of_exemplars())};
+}
 
 }  // namespace
 
@@ -160,16 +193,42 @@ TEST_CASE("a model keeps its descriptor and distance, by name; what this library
   }
 }
 
+TEST_CASE("a model keeps its features and its training shapes one by one") {
+  check_equal(parse_model(serialise(small_model_of_exemplars())), small_model_of_exemplars());
+  const Bytes golden = read_bytes(golden_path("model_1_2_exemplars.focal"));
+  REQUIRE(golden.size() > 0);
+  check_equal(parse_model(golden), small_model_of_exemplars());
+  for (const bool bulge : {false, true}) {  // each feature by itself
+    LandmarkModel model = small_model(Preset::default_preset);
+    model.params.bulge = bulge, model.params.oriented = !bulge;
+    check_equal(parse_model(serialise(model)), model);
+  }
+}
+
+TEST_CASE("a model of a version before 1.2 has signatures only, and does not know whose its samples are") {
+  for (const Preset preset : presets) {
+    const LandmarkModel old = parse_model(read_bytes(golden_path(preset)));
+    CHECK_FALSE(old.params.bulge);
+    CHECK_FALSE(old.params.oriented);
+    CHECK(old.sample_shape.empty());
+    for (const AtlasShape& shape : old.atlas) {
+      CHECK(shape.bulge.size() == 0);
+      CHECK(shape.constellation.present.empty());
+    }
+    const Bytes again = serialise(old);  // and is written as it was
+    CHECK(std::ranges::equal(again, serialise(small_model(preset))));
+  }
+}
+
 // focal_tests --no-skip --test-case="write the golden models" makes them; only ever for a new format version.
 TEST_CASE("write the golden models" * doctest::skip()) {
-  const Bytes file = serialise(small_model_of_method());
-  std::ofstream(golden_path("model_1_1_method.focal"), std::ios::binary)
+  const Bytes file = serialise(small_model_of_exemplars());
+  std::ofstream(golden_path("model_1_2_exemplars.focal"), std::ios::binary)
       .write(reinterpret_cast<const char*>(file.data()), static_cast<std::streamsize>(file.size()));
 }
 
 TEST_CASE("every flipped bit and every truncation of a model is noticed") {
-  for (const Preset preset : presets) {
-    const Bytes file = serialise(small_model(preset));
+  for (const Bytes& file : files()) {
     int32_t unnoticed = 0;
     for (size_t i = 0; i < file.size(); ++i)
       for (int bit = 0; bit < 8; ++bit) {
@@ -186,8 +245,7 @@ TEST_CASE("every flipped bit and every truncation of a model is noticed") {
 }
 
 TEST_CASE("damage behind right checksums is refused or harmless") {
-  for (const Preset preset : presets) {
-    const Bytes file = serialise(small_model(preset));
+  for (const Bytes& file : files()) {
     int32_t refused = 0, harmless = 0;
     for (size_t i = 16; i < file.size(); ++i)
       for (const int value : {0x00, 0x01, 0x7F, 0x80, 0xFF}) {

@@ -79,7 +79,7 @@ TEST_CASE("a hole that is small does not lengthen the way") {
   CHECK(unused > 10);
 }
 
-TEST_CASE("parts without a bridge are out of reach, bridged ones are not") {
+TEST_CASE("separate parts are reached, over bridges or along the surface round them all") {
   TriangleMesh two = sphere(3);
   const TriangleMesh one = two;
   two.positions.conservativeResize(2 * one.vertex_count(), 3);
@@ -87,11 +87,14 @@ TEST_CASE("parts without a bridge are out of reach, bridged ones are not") {
   two.positions.bottomRows(one.vertex_count()) = one.positions.rowwise() + Eigen::RowVector3d(2.5, 0, 0);
   two.triangles.bottomRows(one.triangle_count()) = one.triangles.array() + one.vertex_count();
   const SurfacePoint point{0, Vector3(1, 0, 0)};
-  const auto apart = DistanceFields(proxy_of(two, 0, {.bridge_components = false}), {}).from(point, {});
-  const auto joined = DistanceFields(proxy_of(two, 0), {}).from(point, {});
+  const auto bridged =
+      DistanceFields(proxy_of(two, 0, {.analysed = AnalysedSurface::as_it_is}), {}).from(point, {});
+  const auto wrapped = DistanceFields(proxy_of(two, 0), {}).from(point, {});
   for (int32_t v = 0; v < two.vertex_count(); ++v) {
-    CHECK(std::isfinite(joined[v]));
-    CHECK(std::isinf(apart[v]) == (v >= one.vertex_count()));
+    CHECK(std::isfinite(bridged[v]));
+    // Straight is shortest; and nothing is farther than half round either and across.
+    CHECK(wrapped[v] > 0.95 * (two.positions.row(v) - two.positions.row(two.triangles(0, 0))).norm() - 0.1);
+    CHECK(wrapped[v] < 2 * 3.1416 + 1.5);
   }
 }
 

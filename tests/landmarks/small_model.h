@@ -33,7 +33,9 @@ inline focal::LandmarkModel small_model(focal::Preset preset) {
                   .components_per_split = 6,
                   .sampling_rate = 0.75,
                   .max_samples_per_shape = 1000,
-                  .seed = 0x1234567890ABCDEF};
+                  .seed = 0x1234567890ABCDEF,
+                  .bulge = false,  // format 1.0 has signatures only
+                  .oriented = false};
   model.shape_count = 7, model.mean_vertex_count = 2502;
   for (int32_t f = 0; f < (paper ? L : 1); ++f)
     model.forests.push_back({{small_tree(!paper, f), small_tree(!paper, f + 1)}});
@@ -72,6 +74,30 @@ inline focal::LandmarkModel small_model(focal::Preset preset) {
   model.calibration.typical_residual = 0.25F;
   model.calibration.near_error = 0.03125F, model.calibration.far_error = 0.375F;
   model.calibration.fit_centre = -0.5F, model.calibration.fit_scale = 2;
+  return model;
+}
+
+// What format 1.2 added to it: features, and the training shapes one by one.
+inline focal::LandmarkModel small_model_of_exemplars() {
+  focal::LandmarkModel model = small_model(focal::Preset::default_preset);
+  const int32_t L = 3;
+  model.params.bulge = model.params.oriented = true;
+  model.forests[0].trees[0].feature[2] =
+      121;  // the last: 96 of the signature, 2 x 4 of bulges, 3 x 6 of the frame
+  model.sample_shape = {0, 0, 1, 1, 0, 1};
+  for (int32_t s = 0; s < 2; ++s) {
+    focal::AtlasShape& shape = model.atlas[s];
+    shape.bulge.resize(5, 4);
+    for (int32_t i = 0; i < 20; ++i) shape.bulge.data()[i] = static_cast<float>(i * 1600 - 32000 + s) / 32767;
+    auto& sample = shape.constellation;
+    sample.present = shape.marked, sample.handed = s == 0;
+    sample.distance = sample.directions.x = sample.directions.y = focal::RowMatrixf::Zero(L, L);
+    for (int32_t i = 0; i < L * L; ++i) {
+      sample.distance.data()[i] = 0.125F * static_cast<float>(i + s);
+      sample.directions.x.data()[i] = static_cast<float>(15 * i - 60 + s) / 127 * 2;
+      sample.directions.y.data()[i] = static_cast<float>(60 - 15 * i - s) / 127 * 2;
+    }
+  }
   return model;
 }
 

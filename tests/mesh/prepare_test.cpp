@@ -71,3 +71,44 @@ TEST_CASE("of triangles with the same corners the first stays, degenerate ones g
   REQUIRE(!mesh.warnings.empty());
   CHECK(mesh.warnings[0].find("degenerate or repeated") != std::string::npos);
 }
+
+TEST_CASE(
+    "a mesh is wrapped where it has several parts or many edges of more than two triangles, and where it is "
+    "asked for") {
+  const TriangleMesh one = sphere(3);
+  TriangleMesh two = one;
+  two.positions.conservativeResize(2 * one.vertex_count(), 3);
+  two.triangles.conservativeResize(2 * one.triangle_count(), 3);
+  two.positions.bottomRows(one.vertex_count()) = one.positions.rowwise() + Eigen::RowVector3d(0, 3, 0);
+  two.triangles.bottomRows(one.triangle_count()) = one.triangles.array() + one.vertex_count();
+  const auto is_wrapped = [](const TriangleMesh& mesh,
+                             AnalysedSurface analysed = AnalysedSurface::automatic) {
+    return prepare(mesh, {.analysed = analysed}).is_wrapped;
+  };
+  CHECK_FALSE(is_wrapped(one));
+  CHECK(is_wrapped(one, AnalysedSurface::wrapped));
+  CHECK(is_wrapped(two));
+  CHECK_FALSE(is_wrapped(two, AnalysedSurface::as_it_is));
+  CHECK(is_wrapped(book(2)));         // 4 edges of three triangles, 65 vertices
+  CHECK_FALSE(is_wrapped(book(20)));  // 40 among 4,961
+  for (const AnalysedSurface analysed : {AnalysedSurface::automatic, AnalysedSurface::as_it_is}) {
+    const PreparedMesh mesh = prepare(two, {.analysed = analysed});
+    CHECK(mesh.bridges.size() == 3);  // for those who look at the triangles themselves
+    REQUIRE(mesh.warnings.size() == 1);
+    CHECK(mesh.warnings[0].find(mesh.is_wrapped ? "a closed surface round them all"
+                                                : "bridged at the nearest vertices") != std::string::npos);
+  }
+}
+
+TEST_CASE("a wrapped mesh lies where the mesh lies") {
+  TriangleMesh source = sphere(4);
+  source.positions = ((20 * source.positions).rowwise() + Eigen::RowVector3d(3, 100, -7)).eval();
+  const PreparedMesh mesh = prepare(source, {.analysed = AnalysedSurface::wrapped});
+  const PreparedMesh shell = wrapped(mesh);
+  CHECK_FALSE(shell.is_wrapped);
+  CHECK(shell.components == 1);
+  // Its source is in the coordinates of the surface: of area 1, round the centre.
+  const Vector radius = shell.source.positions.rowwise().norm();
+  CHECK((radius.array() - 1 / std::sqrt(4 * M_PI)).abs().maxCoeff() < 0.005);
+  CHECK(shell.scale == doctest::Approx(1).epsilon(0.01));
+}

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "mesh/components.h"
 #include "mesh/fill_holes.h"
 #include "surfaces.h"
 
@@ -108,4 +109,44 @@ TEST_CASE("a closed surface has the same proxy whether holes are to be filled or
   CHECK(plain.coarse->surface.positions == filling.coarse->surface.positions);
   CHECK(plain.coarse->surface.triangles == filling.coarse->surface.triangles);
   CHECK(make_proxy(mesh, 0, {}, true).is_full());
+}
+
+TEST_CASE(
+    "a mesh of several parts is analysed on one closed surface, and what is found there lies on its own "
+    "triangles") {
+  const TriangleMesh one = sphere(4);
+  TriangleMesh three = one;  // the second meets the first, the third is apart from both
+  for (const double x : {1.2, 3.4}) {
+    const int32_t n = three.vertex_count(), m = three.triangle_count();
+    three.positions.conservativeResize(n + one.vertex_count(), 3);
+    three.triangles.conservativeResize(m + one.triangle_count(), 3);
+    three.positions.bottomRows(one.vertex_count()) = one.positions.rowwise() + Eigen::RowVector3d(x, 0, 0);
+    three.triangles.bottomRows(one.triangle_count()) = one.triangles.array() + n;
+  }
+  const auto mesh = prepared(three);
+  REQUIRE(mesh->is_wrapped);
+  for (const int32_t vertices : {0, 1500}) {
+    const Proxy proxy = make_proxy(mesh, vertices, {}, true);
+    const TriangleMesh& coarse = proxy.coarse->surface;
+    CHECK_FALSE(proxy.is_full());
+    CHECK(components_of(coarse).count == 1);
+    CHECK(coarse.vertex_count() - coarse.triangle_count() / 2 == 2);
+    if (vertices > 0) CHECK(std::abs(coarse.vertex_count() - vertices) < 0.1 * vertices);
+    std::vector<SurfacePoint> points;
+    for (int32_t t = 0; t < coarse.triangle_count(); t += 7)
+      points.push_back({t, Vector3::Constant(1.0 / 3)});
+    double most = 0;
+    for (const SurfacePoint& point : to_full(proxy, points)) {
+      REQUIRE(point.triangle >= 0);
+      const Vector3 place = position_of(mesh->source, to_source(*mesh, point));
+      for (const double x : {0.0, 1.2, 3.4})  // on the outside
+        if (place.x() < 2.3 || x > 2) most = std::max(most, 1 - (place - Vector3(x, 0, 0)).norm());
+    }
+    CHECK(most < 0.1);
+    const auto places = coarse_place_of_vertices(proxy, {});
+    CHECK(static_cast<int32_t>(places.size()) == mesh->surface.vertex_count());
+  }
+  // Preset `paper` takes the triangles as they are, and its distances go over the bridges.
+  CHECK(make_proxy(mesh, 0).is_full());
+  CHECK_FALSE(mesh->bridges.empty());
 }

@@ -124,6 +124,8 @@ class Refused(Case):
             focal.Mesh(vertices, faces, weld=2**32)  # would be 0 when wrapped
         with self.assertRaisesRegex(ValueError, "max_vertices is -1"):
             focal.Mesh(vertices, faces, max_vertices=-1)
+        with self.assertRaisesRegex(ValueError, "surface is 'closed', not one of: auto, as_is, wrapped"):
+            focal.Mesh(vertices, faces, surface="closed")
         self.refused(Status.INVALID_ARGUMENT, "weld is 2", focal.Mesh, vertices, faces, weld=2)
         self.refused(Status.UNSUPPORTED, "more vertices", focal.Mesh, vertices, faces, max_vertices=10)
 
@@ -188,6 +190,18 @@ class Surface(Case):
         made = focal.Mesh(vertices, faces + [faces[0], (1, 1, 2)])
         self.assertTrue(made.warnings)
         self.assertTrue(all(isinstance(one, str) and one for one in made.warnings))
+
+    def test_many_parts(self):
+        vertices, faces, _ = shape()
+        count = len(vertices)
+        vertices = vertices + [(x + 6, y, z) for x, y, z in vertices]
+        faces = faces + [tuple(count + v for v in face) for face in faces]
+        for given, expected in ((None, "closed surface"), ("auto", "closed surface"), ("wrapped", "closed surface"),
+                                ("as-is", "bridged"), (focal.Surface.AS_IS, "bridged"), (1, "bridged")):
+            made = focal.Mesh(vertices, faces, surface=given)
+            self.assertEqual(made.info["component_count"], 2)
+            self.assertIn(expected, made.warnings[0])
+            self.assertEqual(len(made.vertices), 2 * count)
 
     def test_points(self):
         made = mesh()

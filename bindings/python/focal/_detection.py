@@ -133,7 +133,7 @@ class Detection(Handle):
 
     def distances(self, landmark: str | int) -> Any:
         """(vertex_count,) floats: distances along the surface from the landmark, in the mesh's units; infinite where
-        no way leads. Error with Status.INVALID_LANDMARK when it has no place at all."""
+        no triangle uses the vertex. Error with Status.INVALID_LANDMARK when it has no place at all."""
         return self._per_vertex("focal_detection_distances", landmark)
 
     def region(self, landmark: str | int, radius: float) -> Any:

@@ -36,8 +36,10 @@ class Mesh(Handle):
     faces     (m, 3) vertex numbers from 0, counter-clockwise seen from outside
     weld               merge vertices of exactly equal position. Default True
     drop_degenerate    drop triangles with a repeated corner and repeated triangles. Default True
-    surface            what is analysed, a focal.Surface or its name: "as-is", "wrapped" (one closed surface round all
-                       parts), "auto" (wrapped where there are several parts). Default "auto"
+    surface            what is analysed, a focal.Surface or its name: "as-is" the mesh's own triangles, separate parts
+                       linked at their nearest vertices; "wrapped" one closed surface round everything that the mesh
+                       shows from outside (models of preset default only); "auto", the default, wraps where the mesh has
+                       several parts or many edges of more than two triangles. Results always lie on your triangles
     lenient            leave out triangles with a NaN or infinite corner or a vertex number out of range, with a
                        warning, instead of raising an error. Default False
     max_vertices, max_triangles  larger meshes are refused. Defaults 5,000,000 and 10,000,000
