@@ -45,6 +45,13 @@ class LogLevel(IntEnum):
     ERROR = 2
 
 
+class Surface(IntEnum):
+    """focal_surface"""
+    AUTO = 0
+    AS_IS = 1
+    WRAPPED = 2
+
+
 class Descriptor(IntEnum):
     """focal_descriptor"""
     SI_HKS = 0
