@@ -15,7 +15,7 @@ constexpr double most_rigid_area = 0.4, small_extent = 0.45, tiny_extent = 0.2;
 constexpr float nearly_one = 0.9F;      // share of the main joint in a part of any form that is rigid
 constexpr float one_bone = 0.75F;       // in a small one that does not bend with a joint
 constexpr float tiny_one_bone = 0.55F;  // in a tiny one
-constexpr float two_bones = 0.9F;       // of the two main joints in a tiny one
+constexpr float two_bones = 0.85F;      // of the two main joints in a tiny one
 constexpr float bends_with = 0.2F;      // share of a joint that a part bends with when it lies round it
 // How much farther than the nearest side the one that faces alike may be, in mean edges of the analysed surface.
 constexpr double faces_other_way = 1.5;
@@ -136,17 +136,17 @@ Box box_of(const Part& part, const MatrixX3& positions) {
 }
 
 // Whether a part lies round a joint that moves some of it, as a cuff or a neck does, and bends with it.
-bool is_round_a_joint(const Part& part, const Box& box, const std::vector<Vector3>& joints) {
-  for (size_t j = 0; j < joints.size(); ++j)
-    if (part.mean[static_cast<Eigen::Index>(j)] > bends_with && (joints[j] - box.low).minCoeff() > 0 &&
-        (box.high - joints[j]).minCoeff() > 0)
+bool is_round_a_joint(const Part& part, const Box& box, const std::vector<Vector3>& place) {
+  for (size_t j = 0; j < place.size(); ++j)
+    if (part.mean[static_cast<Eigen::Index>(j)] > bends_with && (place[j] - box.low).minCoeff() > 0 &&
+        (box.high - place[j]).minCoeff() > 0)
       return true;
   return false;
 }
 
 // The weights that all vertices of a rigid part have; empty: it is none. extent, area: of the mesh.
-Eigen::RowVectorXf rigid_weights(const Part& part, const MatrixX3& positions,
-                                 const std::vector<Vector3>& joints, double extent, double area) {
+Eigen::RowVectorXf rigid_weights(const Part& part, const MatrixX3& positions, const PlacedSkeleton& skeleton,
+                                 double extent, double area) {
   if (part.area > most_rigid_area * area) return {};
   Eigen::Index main = 0, second = 0;
   Eigen::RowVectorXf rest = part.mean;
@@ -155,24 +155,28 @@ Eigen::RowVectorXf rigid_weights(const Part& part, const MatrixX3& positions,
   if (most > nearly_one) return result[main] = 1, result;
   const Box box = box_of(part, positions);
   const double size = (box.high - box.low).norm() / extent;
-  if (size > small_extent || is_round_a_joint(part, box, joints)) return {};
-  if (most > (size > tiny_extent ? one_bone : tiny_one_bone)) return result[main] = 1, result;
+  if (size > small_extent || is_round_a_joint(part, box, skeleton.place)) return {};
+  if (most > one_bone) return result[main] = 1, result;
+  if (size > tiny_extent) return {};
   rest[main] = 0;
   const float more = rest.maxCoeff(&second);
-  if (size > tiny_extent || most + more < two_bones) return {};
-  result[main] = most / (most + more), result[second] = more / (most + more);
-  return result;
+  const bool are_neighbours =
+      skeleton.joints[main].parent == second || skeleton.joints[second].parent == main;
+  if (are_neighbours && most + more > two_bones)
+    return result[main] = most / (most + more), result[second] = more / (most + more), result;
+  if (most < tiny_one_bone) return {};
+  return result[main] = 1, result;
 }
 
-// joints: where they lie, in the coordinates of the mesh.
-void stiffen_parts(RowMatrixf& weights, const TriangleMesh& mesh, const std::vector<Vector3>& joints) {
+// skeleton: in the coordinates of the mesh.
+void stiffen_parts(RowMatrixf& weights, const TriangleMesh& mesh, const PlacedSkeleton& skeleton) {
   const std::vector<Part> parts = parts_of(mesh, weights);
   if (parts.size() < 2) return;
   const double extent = extent_of(mesh.positions);
   double area = 0;
   for (const Part& part : parts) area += part.area;
   for (const Part& part : parts) {
-    const Eigen::RowVectorXf rigid = rigid_weights(part, mesh.positions, joints, extent, area);
+    const Eigen::RowVectorXf rigid = rigid_weights(part, mesh.positions, skeleton, extent, area);
     if (rigid.size() > 0)
       for (const int32_t v : part.vertices) weights.row(v) = rigid;
   }
@@ -187,10 +191,10 @@ void put_influences_by_parts(const SurfaceWeights& found, const PlacedSkeleton& 
   RowMatrixf weights = lifted(found.weights, analysis, execution);
   close_seams(weights, full.surface.positions);
   for (Eigen::Index v = 0; v < weights.rows(); ++v) sharpen(weights.row(v), found.exponent);
-  std::vector<Vector3> joints = skeleton.place;
+  PlacedSkeleton on_mesh = skeleton;
   if (!analysis.proxy.is_full())
-    for (Vector3& p : joints) p = analysis.proxy.coarse->centre + analysis.proxy.coarse->scale * p;
-  stiffen_parts(weights, full.surface, joints);
+    for (Vector3& p : on_mesh.place) p = analysis.proxy.coarse->centre + analysis.proxy.coarse->scale * p;
+  stiffen_parts(weights, full.surface, on_mesh);
   clear_influences(full.surface_vertex.size(), most, rig);
   for (size_t v = 0; v < full.surface_vertex.size(); ++v)
     if (full.surface_vertex[v] >= 0) put_influences(weights.row(full.surface_vertex[v]), most, v, rig);

@@ -14,7 +14,7 @@ namespace {
 constexpr double space_share =
     400;  // of a length in space beside lengths in the embedding, both of sqrt(area)
 constexpr double rigid_teachers = 0.92;  // hardness from which weights are not smoothed
-constexpr float most_exponent = 8;
+constexpr float most_exponent = 2, most_exponent_rigid = 8;
 constexpr int between = PlacesBetween::vertices;
 constexpr double least_length = 1e-4;  // of a bone that has a direction
 
@@ -117,7 +117,7 @@ double hardness_of(const RowMatrixf& weights, const Vector& mass, float exponent
 
 // The power of the weights that makes them as hard as the training shapes' are.
 float exponent_for(const RowMatrixf& weights, const Vector& mass, double hardness) {
-  float low = 1, high = most_exponent;
+  float low = 1, high = hardness < rigid_teachers ? most_exponent : most_exponent_rigid;
   for (int round = 0; round < 8; ++round) {
     const float middle = (low + high) / 2;
     (hardness_of(weights, mass, middle) < hardness ? low : high) = middle;

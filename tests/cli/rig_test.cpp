@@ -7,7 +7,6 @@
 
 #include "command.h"
 #include "files.h"
-#include "tiny_set.h"
 
 #ifdef FOCAL_CREATURES
 namespace {
@@ -22,11 +21,16 @@ struct Humanoids {
     const std::string line = "\"" FOCAL_CREATURES "\" " + scratch.path.string() +
                              " --family humanoid --train 1 --test 1 > " + (scratch / "log");
     REQUIRE(std::system(line.c_str()) == 0);
+    const std::string other = "\"" FOCAL_CREATURES "\" " + scratch.path.string() +
+                              " --family hand --train 1 --test 0 > " + (scratch / "log");
+    REQUIRE(std::system(other.c_str()) == 0);
     trained = focal_json("train --rigs " + teacher() + " -o " + model() +
                          " --eigenpairs 60 --trees 6 --proxy 1000");
   }
   std::string teacher() const { return scratch / "humanoid/humanoid_00.rig.glb"; }
   std::string mesh() const { return scratch / "humanoid/humanoid_01.glb"; }
+  // A hand is no humanoid.
+  std::string foreign() const { return scratch / "hand/hand_00.glb"; }
   std::string model() const { return scratch / "rig.focal"; }
 };
 
@@ -72,9 +76,8 @@ TEST_CASE("rig: a verdict in JSON and in words") {
 
 TEST_CASE("rig: what failed ends with 1 and writes nothing, unless it is to be kept") {
   const ScratchFolder scratch;
-  write_tiny_set(scratch, 1, 0);  // an egg is no humanoid
   const std::string out = scratch / "a.glb";
-  const std::string line = "rig " + humanoids().model() + " " + (scratch / "egg0.glb") + " -o " + out;
+  const std::string line = "rig " + humanoids().model() + " " + humanoids().foreign() + " -o " + out;
   const Run run = focal(line + " --json");
   CAPTURE(run.out);
   CAPTURE(run.err);
@@ -94,9 +97,8 @@ TEST_CASE("rig: what failed ends with 1 and writes nothing, unless it is to be k
 
 TEST_CASE("batch: a verdict a file and their count") {
   const ScratchFolder scratch, results;
-  write_tiny_set(scratch, 1, 0);
   fs::create_directory(scratch.path / "in");
-  fs::copy_file(scratch / "egg0.glb", scratch / "in/egg.glb");
+  fs::copy_file(humanoids().foreign(), scratch / "in/hand.glb");
   fs::copy_file(humanoids().mesh(), scratch / "in/man.glb");
   const std::string line =
       "batch " + humanoids().model() + " " + (scratch / "in") + " -o " + results.path.string() + " --rig";
@@ -109,7 +111,7 @@ TEST_CASE("batch: a verdict a file and their count") {
   CHECK(report["verdicts"]["good"].get<int>() + report["verdicts"]["check"].get<int>() == 1);
   CHECK(report["meshes"][0]["verdict"] == "failed");
   CHECK(report["meshes"][0]["status"] == "failed");
-  CHECK_FALSE(fs::exists(results / "egg.glb"));
+  CHECK_FALSE(fs::exists(results / "hand.glb"));
   CHECK(fs::exists(results / "man.glb"));
   const Run words = focal(line);
   CHECK(words.out.find("man.glb: there already") != std::string::npos);
