@@ -13,7 +13,7 @@ namespace focal {
 
 struct RiggedMesh {
   std::shared_ptr<const PreparedMesh> mesh;
-  Rig rig;  // in the coordinates of mesh->source, one entry of influences a source vertex
+  Rig rig;                      // in the coordinates of mesh->source, one entry of influences a source vertex
   std::string file = {};        // its name, for messages; or none
   int64_t invalid_weights = 0;  // of the file: negative, NaN or infinite; they were left out of the rig
 };
