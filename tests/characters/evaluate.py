@@ -1,6 +1,7 @@
 """How well are game characters rigged that taught nothing? On the characters of focal_creatures, which know their joints.
 
     evaluate.py --focal FOCAL --creatures FOCAL_CREATURES --out FOLDER [--teachers 40] [--tests 12] [--seed 1] [--family NAME]
+                [-- OPTIONS OF FOCAL]
     evaluate.py --self-test
 
 Per family the first characters teach a model and the others, posed and without a skeleton, are rigged with it. Printed:
@@ -16,7 +17,8 @@ Per family the first characters teach a model and the others, posed and without 
                         count in all columns
   copy                  the line below: what the teachers' mean skeleton reaches, scaled to the height of the mesh and put into
                         its box, with the true heading given. It does not look at the shape: a rig has to be better than this.
-Fails (1) when a family's mean is above its bound. The rigged files stay in FOLDER, with what was measured in results.json.
+Fails (1) when a family's mean is above its bound or more than a third of its tests are refused. The rigged files stay in
+FOLDER, with what was measured in results.json.
 """
 import argparse
 import contextlib
@@ -32,7 +34,9 @@ import numpy as np
 
 import glb
 
-BOUNDS = {"game_humanoid": 0.0, "game_quadruped": 0.0}
+FAMILIES = ["game_humanoid", "game_quadruped"]
+BOUNDS = {"game_humanoid": 20.3}  # of a family's mean, in per cent: 1.3 times what 12 teachers reached on 4 tests
+MOST_REFUSED = 1 / 3  # share of a family's tests
 NEAR = 0.05           # of the size: a joint that is well placed
 USABLE = 0.9          # share of well placed joints
 TURNED = 1 / 3        # share of exchanged pairs
@@ -173,7 +177,8 @@ def evaluate(arguments, family):
         split = json.load(file)
     teachers, tests = ([Character(folder, n) for n in split[key]] for key in ("train", "test"))
     model = f"{arguments.out}/{family}.focal"
-    code, _, wrong, seconds = run([arguments.focal, "train", "--rigs", *(t.rig for t in teachers), "-o", model, "--quiet", *arguments.options])
+    command = [arguments.focal, "train", "--rigs", *(t.rig for t in teachers), "-o", model, "--quiet"]
+    code, _, wrong, seconds = run(command + arguments.options)
     if code:
         sys.exit(f"{family}: training failed: {wrong[-600:]}")
     skeleton = mean_skeleton([(t.rest, glb.File(t.rig).mesh()[0]) for t in teachers])
@@ -189,9 +194,10 @@ def evaluate(arguments, family):
 
 def within_bound(family, results, bounds):
     means = [r["mean"] for r in results if "mean" in r]
-    good = bool(means) and 100 * np.mean(means) <= bounds.get(family, np.inf)
+    most = MOST_REFUSED * len(results)
+    good = bool(means) and len(results) - len(means) <= most and 100 * np.mean(means) <= bounds.get(family, np.inf)
     if not good:
-        print(f"{family}: above the bound of {bounds.get(family)} %, or nothing was rigged", file=sys.stderr)
+        print(f"{family}: above the bound ({bounds.get(family, 'none')} %), or more than a third refused", file=sys.stderr)
     return good
 
 
@@ -227,7 +233,8 @@ def self_test():
     assert "all 1 refused" in table_row("a", "focal", rows[2:], 1)
     assert verdict_of({}) is None and verdict_of({"verdict": {"level": "good"}}) == "good" and verdict_of({"verdict": "poor"}) == "poor"
     with contextlib.redirect_stderr(io.StringIO()):
-        assert within_bound("a", rows, {"a": 2.1}) and not within_bound("a", rows, {"a": 1.9}) and not within_bound("a", [], {"a": 9})
+        assert within_bound("a", rows, {"a": 2.1}) and not within_bound("a", rows, {"a": 1.9})
+        assert not within_bound("a", rows[1:], {"a": 9}) and not within_bound("a", [], {"a": 9})
     print("measures, copy, heading and table: as expected")
 
 
@@ -248,9 +255,10 @@ def main():
     if not arguments.focal or not arguments.creatures:
         parser.error("--focal and --creatures are wanted")
     os.makedirs(arguments.out, exist_ok=True)
-    print(f"{arguments.teachers} teachers, {arguments.tests} tests, seed {arguments.seed}; per cent of the height, of an animal's longest side")
+    print(f"{arguments.teachers} teachers, {arguments.tests} tests, seed {arguments.seed}; "
+          "per cent of the height, of an animal's longest side")
     print(table_head(), flush=True)
-    results = {family: evaluate(arguments, family) for family in arguments.family or list(BOUNDS)}
+    results = {family: evaluate(arguments, family) for family in arguments.family or FAMILIES}
     with open(f"{arguments.out}/results.json", "w") as file:
         json.dump(results, file, indent=1)
     return 0 if all([within_bound(family, rows, BOUNDS) for family, rows in results.items()]) else 1

@@ -5,8 +5,9 @@
     sheet.py OUT.png --wild WORK --details DETAILS.json     the folder of wild_eval.py --keep-glb and its --details
     sheet.py --self-test
 
-Bones are red, joints of the left side yellow, so exchanged sides are seen. Bent are arms, legs, spine, neck and tail, by the file's
-own weights: a mesh that tears or drags other parts along has bad ones.
+Bones are red, joints of the left side yellow. The skeleton is looked at from its left front, so a character whose sides are
+exchanged shows its back. Bent are arms, legs, spine, neck and tail, by the file's own weights: a mesh that tears or drags other
+parts along has bad ones.
 """
 import argparse
 import json
