@@ -20,7 +20,7 @@ import numpy as np
 import glb
 import png
 
-WIDTH, HEIGHT, CAPTION = 230, 290, 34   # of a picture, and of the lines below a pair, in pixels
+WIDTH, HEIGHT, CAPTION = 230, 290, 44   # of a picture, and of the lines below a pair, in pixels
 FINER = 2                               # pixels drawn a pixel shown, in both directions
 GROUND, BONE, LEFT, RIGHT = (250, 250, 248), (215, 25, 30), (255, 200, 0), (120, 10, 15)
 
@@ -209,7 +209,7 @@ def pair(path, lines):
         bends = skeleton.bends()
         cell[:HEIGHT, WIDTH:] = picture(skeleton, *file.mesh(bends), bends)
     for row, line in enumerate(lines):
-        png.write_text(cell, 10, HEIGHT + 4 + 14 * row, line, (30, 30, 30) if row == 0 else (190, 20, 25), 1 if len(line) > 37 else 2)
+        png.write_text(cell, 10, HEIGHT + 4 + 19 * row, line, (30, 30, 30) if row == 0 else (190, 20, 25), 1 if len(line) > 37 else 2)
     cell[-1:], cell[:, -1:] = 215, 215
     return cell
 
