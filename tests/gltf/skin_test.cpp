@@ -103,6 +103,28 @@ TEST_CASE("a skin put into a file is read back the same") {
   CHECK(group["children"].size() == 1);
 }
 
+TEST_CASE("more than four influences go into a second set, which the next skin removes") {
+  const std::vector<std::byte> source = tetrahedron().glb();
+  const GltfMesh mesh = read_gltf_memory(source);
+  const Rig plain = two_joints(static_cast<size_t>(mesh.mesh.vertex_count()));
+  Rig rich = plain;
+  rich.more.assign(rich.influences.size(), VertexInfluences{{{1, 0.125F}}});
+  const auto attributes_of = [](const std::vector<std::byte>& file) {
+    return parsed(file)["meshes"][0]["primitives"][0]["attributes"];
+  };
+  const auto eight = add_skin(source, mesh.primitives, {&rich, tips(), {}, {}, &mesh.mesh});
+  for (const char* name : {"JOINTS_0", "WEIGHTS_0", "JOINTS_1", "WEIGHTS_1"})
+    CHECK(attributes_of(eight).contains(name));
+  const GltfMesh again = read_gltf_memory(eight);
+  const auto read = read_gltf_rig(eight, again.primitives);
+  REQUIRE(read.has_value());
+  CHECK(read->influences[1][1].weight == doctest::Approx(0.375 / 1.125));  // both sets count
+  const auto four = add_skin(eight, again.primitives, {&plain, tips(), {}, {}, &again.mesh});
+  CHECK(attributes_of(four).contains("WEIGHTS_0"));
+  CHECK_FALSE(attributes_of(four).contains("JOINTS_1"));
+  CHECK_FALSE(attributes_of(four).contains("WEIGHTS_1"));
+}
+
 TEST_CASE("a mesh with a place or a parent goes to a root of its own, and stays where it is") {
   GltfBuilder file = tetrahedron();
   file.root["nodes"][0]["translation"] = {1, 2, 3};
