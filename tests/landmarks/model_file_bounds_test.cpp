@@ -233,6 +233,30 @@ TEST_CASE("features and exemplars keep to their bounds") {
   LandmarkModel fewer = model;
   fewer.sample_shape.pop_back();
   CHECK(error_of(fewer).find("EXMP: ") != std::string::npos);
+  check_bounds("FEAT: sample count", model,
+               [](LandmarkModel& m, double rows) {
+                 m.facing_targets = RowMatrixf::Zero(static_cast<Eigen::Index>(rows), 6);
+               },
+               {6}, {0});
+  check_bounds("FEAT: leaf sample", model,
+               [](LandmarkModel& m, double sample) {
+                 m.rising.trees[0].leaf_samples[0] = static_cast<int32_t>(sample);
+               },
+               {6}, {7});
+  check_bounds("FEAT: tree count", model,
+               [](LandmarkModel& m, double trees) {
+                 m.facing.trees.resize(static_cast<size_t>(trees)),
+                     m.rising.trees.resize(static_cast<size_t>(trees));
+               },
+               {1}, {0});
+  check_bounds(
+      "FEAT: feature", model,
+      [](LandmarkModel& m, double feature) { m.rising.trees[0].feature[2] = static_cast<int32_t>(feature); },
+      {103}, {104});
+  check_bounds(
+      "FEAT: feature", model,
+      [](LandmarkModel& m, double feature) { m.facing.trees[1].feature[2] = static_cast<int32_t>(feature); },
+      {115}, {116});
   // The last component that a tree may test is that of the last feature.
   check_bounds("FRST: feature", model,
                [](LandmarkModel& m, double feature) {

@@ -35,6 +35,11 @@ void check_equal(const RegressionTree& a, const RegressionTree& b) {
   CHECK(a.leaf_mean == b.leaf_mean);
 }
 
+void check_equal(const RegressionForest& a, const RegressionForest& b) {
+  REQUIRE(a.trees.size() == b.trees.size());
+  for (size_t t = 0; t < a.trees.size(); ++t) check_equal(a.trees[t], b.trees[t]);
+}
+
 void check_equal(const TrainParams& a, const TrainParams& b) {
   CHECK(a.preset == b.preset);
   CHECK(a.eigenpair_count == b.eigenpair_count);
@@ -64,11 +69,10 @@ void check_equal(const LandmarkModel& a, const LandmarkModel& b) {
   CHECK(a.shape_count == b.shape_count);
   CHECK(a.mean_vertex_count == b.mean_vertex_count);
   REQUIRE(a.forests.size() == b.forests.size());
-  for (size_t f = 0; f < a.forests.size(); ++f) {
-    REQUIRE(a.forests[f].trees.size() == b.forests[f].trees.size());
-    for (size_t t = 0; t < a.forests[f].trees.size(); ++t)
-      check_equal(a.forests[f].trees[t], b.forests[f].trees[t]);
-  }
+  for (size_t f = 0; f < a.forests.size(); ++f) check_equal(a.forests[f], b.forests[f]);
+  check_equal(a.rising, b.rising);
+  check_equal(a.facing, b.facing);
+  CHECK(a.facing_targets == b.facing_targets);
   CHECK(a.targets == b.targets);
   CHECK(a.reach == b.reach);
   CHECK(a.sample_shape == b.sample_shape);
@@ -118,6 +122,15 @@ void walk(const LandmarkModel& model) {
       for (int32_t i = tree.leaf_start[leaf]; i < tree.leaf_start[leaf + 1]; ++i)
         REQUIRE(tree.leaf_samples.at(i) < model.targets.rows());
     }
+  for (const auto& [forest, features] : {std::pair(&model.rising, invariant_feature_count(model.params)),
+                                         std::pair(&model.facing, upright_feature_count(model.params))}) {
+    descriptor.resize(static_cast<size_t>(features));
+    for (const RegressionTree& tree : forest->trees) {
+      const int32_t leaf = tree.leaf_of(descriptor.data());
+      for (int32_t i = tree.leaf_start.at(leaf); i < tree.leaf_start.at(leaf + 1); ++i)
+        REQUIRE(tree.leaf_samples.at(i) < model.facing_targets.rows());
+    }
+  }
   if (model.sample_shape.empty()) return;
   REQUIRE(static_cast<Eigen::Index>(model.sample_shape.size()) == model.targets.rows());
   for (const int32_t shape : model.sample_shape) {
@@ -200,6 +213,8 @@ TEST_CASE("a model keeps its features and its training shapes one by one") {
   check_equal(parse_model(golden), small_model_of_exemplars());
   for (const bool bulge : {false, true}) {  // each feature by itself
     LandmarkModel model = small_model(Preset::default_preset);
+    if (!bulge)
+      model = small_model_of_exemplars(), model.forests = small_model(Preset::default_preset).forests;
     model.params.bulge = bulge, model.params.oriented = !bulge;
     check_equal(parse_model(serialise(model)), model);
   }

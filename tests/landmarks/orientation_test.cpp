@@ -1,4 +1,4 @@
-// Which headings are tried: a forest that learned where things lie in a body's frame agrees in that frame only.
+// Which headings are tried, for a body whose points differ enough to say where they lie.
 #include "landmarks/orientation.h"
 
 #include <doctest/doctest.h>
@@ -14,80 +14,100 @@ using namespace focal_test;
 
 namespace {
 
-constexpr int32_t samples = 400;
-
-std::shared_ptr<const PreparedMesh> body(const Matrix3& turn) {
-  TriangleMesh mesh = with_radius(sphere(4), lump);
-  mesh.positions = (mesh.positions * turn.transpose()).eval();
-  return std::make_shared<PreparedMesh>(prepare(std::move(mesh)));
-}
+constexpr double pi = 3.141592653589793;
 
 SurfaceAnalysis analysed(const Matrix3& turn) {
-  return analyse_surface(body(turn), {.eigenpair_count = 30, .sampling_rate = 0.5, .seed = 5}, {});
+  TriangleMesh mesh = with_radius(sphere(4), lump);
+  mesh.positions = (mesh.positions * turn.transpose()).eval();
+  return analyse_surface(std::make_shared<PreparedMesh>(prepare(std::move(mesh))),
+                         {.eigenpair_count = 30, .sampling_rate = 0.5, .seed = 5}, {});
 }
 
-// A forest of distances to three points, learned from the body as it stands.
+Matrix3 turn_about(const Vector3& axis, double angle) {
+  return Eigen::AngleAxisd(angle, axis).toRotationMatrix();
+}
+
+// Learned from the body as it stands, as training does.
 LandmarkModel model_of_body() {
   const SurfaceAnalysis analysis = analysed(Matrix3::Identity());
+  const auto count = static_cast<int32_t>(analysis.samples.size());
   LandmarkModel model;
-  model.landmark_names = {"a", "b", "c"};
-  model.params.tree_count = 10;
-  const std::vector<int32_t> marks = {0, 3, 4};
-  const RowMatrixf fields = analysis.metric->distances(marks, {});
-  RowMatrixf targets(samples, 3);
-  model.targets.resize(samples, 3), model.reach = fields.maxCoeff();
-  for (int32_t s = 0; s < samples; ++s)
-    for (int32_t l = 0; l < 3; ++l) {
-      targets(s, l) = fields(l, analysis.samples[s]);
-      model.targets(s, l) = static_cast<uint16_t>(targets(s, l) / model.reach * target_steps);
-    }
-  const RowMatrixf features = features_of(analysis, samples, model.params, Matrix3::Identity());
-  model.forests = {grow_forest(bin_descriptors(features, {}), targets, {.tree_count = 10}, {})};
+  model.facing_targets = placed_features(analysis, count);
+  RowMatrixf forwards = model.facing_targets;
+  for (const Eigen::Index other : {0, 1, 3, 4}) forwards.col(other).setZero();
+  const ForestParams how{.tree_count = 10};
+  model.rising =
+      grow_forest(bin_descriptors(invariant_features(analysis, count), {}), model.facing_targets, how, {});
+  model.facing =
+      grow_forest(bin_descriptors(upright_features(analysis, model.facing_targets), {}), forwards, how, {});
   return model;
 }
 
-bool is_turn(const Matrix3& m) {
-  return (m * m.transpose() - Matrix3::Identity()).norm() < 1e-12 && m.determinant() > 0.5;
+// Degrees from the frame that undoes the turn.
+double degrees_off(const Heading& heading, const Matrix3& turn) {
+  return Eigen::AngleAxisd(heading.frame * turn).angle() * 180 / pi;
+}
+
+const Heading& cheapest(const std::vector<Heading>& headings) {
+  return *std::min_element(headings.begin(), headings.end(),
+                           [](const Heading& a, const Heading& b) { return a.penalty < b.penalty; });
 }
 
 }  // namespace
 
-TEST_CASE(
-    "headings: as the training shapes stand, then backwards, then others where the trees agree better") {
+TEST_CASE("headings: a body that stands as learned is tried so, and backwards, which costs more") {
+  const auto headings =
+      headings_to_try(model_of_body(), analysed(Matrix3::Identity()), DetectParams::Orientation::upright);
+  REQUIRE(headings.size() == 2);
+  CHECK(headings[0].frame.isIdentity(1e-12));
+  CHECK(headings[1].frame.isApprox(turn_about({0, 1, 0}, pi), 1e-12));
+  CHECK(headings[0].penalty < headings[1].penalty);
+}
+
+TEST_CASE("headings: one that faces elsewhere is tried as it faces") {
   const LandmarkModel model = model_of_body();
-  const Matrix3 back = Eigen::AngleAxisd(M_PI, Vector3::UnitY()).toRotationMatrix();
-  const auto upright =
-      headings_to_try(model, analysed(Matrix3::Identity()), DetectParams::Orientation::upright, {});
-  REQUIRE(upright.size() == 2);  // it stands as learned: nothing is clearly better
-  CHECK(upright[0].frame == Matrix3::Identity());
-  CHECK(upright[0].penalty == 0);
-  CHECK((upright[1].frame - back).norm() < 1e-12);
-  CHECK(upright[1].penalty > 0);
-  for (const Vector3& axis : {Vector3(1, 0, 0), Vector3(0, 1, 0), Vector3(0, 0, 1)}) {
-    const Matrix3 turn = Eigen::AngleAxisd(M_PI / 2, axis).toRotationMatrix();
-    const auto headings = headings_to_try(model, analysed(turn), DetectParams::Orientation::upright, {});
-    REQUIRE(headings.size() > 2);
-    for (const Heading& heading : headings) CHECK(is_turn(heading.frame));
-    const auto right = std::find_if(headings.begin(), headings.end(), [&](const Heading& heading) {
-      return (heading.frame - turn.transpose()).norm() < 1e-9;
-    });
-    REQUIRE(right != headings.end());
-    CHECK(right - headings.begin() == 2);  // the best of those that are not tried anyway
-    CHECK((right->penalty > upright[1].penalty) ==
-          (axis.y() == 0));  // lying down costs more than facing elsewhere
+  for (const double angle : {pi / 2, -pi / 2, 0.75 * pi, pi}) {
+    CAPTURE(angle);
+    const Matrix3 turn = turn_about({0, 1, 0}, angle);
+    const auto headings = headings_to_try(model, analysed(turn), DetectParams::Orientation::upright);
+    const size_t upright = angle == pi ? 2 : 3;  // those about another up axis come later
+    REQUIRE(headings.size() >= upright);
+    for (size_t h = 0; h < upright; ++h)
+      CHECK((headings[h].frame * Vector3::UnitY()).isApprox(Vector3::UnitY(), 1e-9));
+    CHECK(degrees_off(headings[upright - 1], turn) < 15);
+    CHECK(&cheapest(headings) == &headings[upright - 1]);
   }
 }
 
-TEST_CASE("headings: any way costs nothing, and four are tried; a model without an orientation has one") {
+TEST_CASE("headings: one that lies is tried upright, at a price; any way it costs nothing to lie") {
+  const LandmarkModel model = model_of_body();
+  for (const Vector3& axis : {Vector3(1, 0, 0), Vector3(0, 0, 1), Vector3(1, 0, -1).normalized().eval()}) {
+    const Matrix3 turn = turn_about(axis, pi / 2);
+    const SurfaceAnalysis lying = analysed(turn);
+    const auto price_of_right = [&](DetectParams::Orientation orientation) {
+      const auto headings = headings_to_try(model, lying, orientation);
+      CHECK(headings.size() >= 4);
+      const auto right = std::min_element(
+          headings.begin(), headings.end(),
+          [&](const Heading& a, const Heading& b) { return degrees_off(a, turn) < degrees_off(b, turn); });
+      CHECK(degrees_off(*right, turn) < 15);
+      for (const Heading& heading : headings) {
+        CHECK((heading.frame * heading.frame.transpose()).isIdentity(1e-9));
+        CHECK(heading.frame.determinant() > 0);
+      }
+      return right->penalty;
+    };
+    CHECK(price_of_right(DetectParams::Orientation::upright) >
+          price_of_right(DetectParams::Orientation::any_way) + 1);
+  }
+}
+
+TEST_CASE("headings: a model without an orientation has one") {
   LandmarkModel model = model_of_body();
-  const SurfaceAnalysis analysis = analysed(Matrix3::Identity());
-  const auto headings = headings_to_try(model, analysis, DetectParams::Orientation::any_way, {});
-  CHECK(headings.size() == 4);
-  for (const Heading& heading : headings) CHECK(heading.penalty == 0);
-  for (size_t a = 0; a < headings.size(); ++a)
-    for (size_t b = 0; b < a; ++b) CHECK((headings[a].frame - headings[b].frame).norm() > 1);
   model.params.oriented = false;
-  const auto only = headings_to_try(model, analysis, DetectParams::Orientation::any_way, {});
-  REQUIRE(only.size() == 1);
-  CHECK(only[0].frame == Matrix3::Identity());
+  const auto headings =
+      headings_to_try(model, analysed(Matrix3::Identity()), DetectParams::Orientation::any_way);
+  REQUIRE(headings.size() == 1);
+  CHECK(headings[0].frame == Matrix3::Identity());
+  CHECK(headings[0].penalty == 0);
 }

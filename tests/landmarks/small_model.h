@@ -84,6 +84,14 @@ inline focal::LandmarkModel small_model_of_exemplars() {
   model.params.bulge = model.params.oriented = true;
   model.forests[0].trees[0].feature[2] =
       121;  // the last: 96 of the signature, 2 x 4 of bulges, 3 x 6 of the frame
+  for (int32_t t = 0; t < 2; ++t) {
+    model.rising.trees.push_back(small_tree(true, t));
+    model.facing.trees.push_back(small_tree(true, 2 - t));
+    model.rising.trees[t].feature[2] = 103;  // the last: 96 of the signature, 2 x 4 of bulges
+    model.facing.trees[t].feature[2] = 115;  // and 3 x 4 of the height
+  }
+  model.facing_targets.resize(7, 6);
+  for (int32_t i = 0; i < 42; ++i) model.facing_targets.data()[i] = 0.125F * static_cast<float>(i - 20);
   model.sample_shape = {0, 0, 1, 1, 0, 1};
   for (int32_t s = 0; s < 2; ++s) {
     focal::AtlasShape& shape = model.atlas[s];
