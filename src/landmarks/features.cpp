@@ -14,6 +14,8 @@ namespace {
 constexpr int32_t bulge_copies = 2, frame_copies = 3, frame_components = 6, upright_components = 4;
 constexpr auto bulge_components = static_cast<int32_t>(bulge_radii.size());
 
+constexpr float place_steps = 4000, farthest_place = 8;
+
 }  // namespace
 
 int32_t feature_count(const TrainParams& params) {
@@ -71,6 +73,13 @@ RowMatrixf upright_features(const SurfaceAnalysis& analysis, const RowMatrixf& p
               std::max(std::hypot(placed(s, 0), placed(s, 2)), 1e-6f);
   return result;
 }
+
+uint16_t place_to_file(float value) {
+  return static_cast<uint16_t>(
+      std::lround((std::clamp(value, -farthest_place, farthest_place) + farthest_place) * place_steps));
+}
+
+float place_from_file(uint16_t value) { return static_cast<float>(value) / place_steps - farthest_place; }
 
 RowMatrixf placed_features(const SurfaceAnalysis& analysis, int32_t count) {
   const MatrixX3& positions = analysis.surface().positions;

@@ -22,4 +22,8 @@ int32_t upright_feature_count(const TrainParams& params);
 // Per sample its position from the centre of the surface and its normal, in surface coordinates: count x 6.
 RowMatrixf placed_features(const SurfaceAnalysis& analysis, int32_t count);
 
+// A number of placed_features as a model keeps it: a multiple of 1 / 4000 within -8..8. Training uses no finer one.
+uint16_t place_to_file(float value);
+float place_from_file(uint16_t value);
+
 }  // namespace focal

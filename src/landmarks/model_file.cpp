@@ -321,15 +321,11 @@ void read_skeleton(ByteReader in, LandmarkModel& model) {
 
 // --- FEAT: what the forest knows of a point beside its signature
 
-constexpr float place_steps = 4000, farthest_place = 8;
-
 void write_features(const LandmarkModel& model, ByteWriter& out) {
   out.u8(model.params.bulge), out.u8(model.params.oriented);
   if (!model.params.oriented) return;
   out.u32(static_cast<uint32_t>(model.facing_targets.rows()));
-  for (const float value : model.facing_targets.reshaped<Eigen::RowMajor>())
-    out.u16(static_cast<uint16_t>(
-        std::lround((std::clamp(value, -farthest_place, farthest_place) + farthest_place) * place_steps)));
+  for (const float value : model.facing_targets.reshaped<Eigen::RowMajor>()) out.u16(place_to_file(value));
   out.u32(static_cast<uint32_t>(model.facing.trees.size()));
   for (const RegressionForest* forest : {&model.rising, &model.facing})
     write_forest(*forest, static_cast<int32_t>(model.facing_targets.rows()), out);
@@ -342,7 +338,7 @@ void read_features(ByteReader in, LandmarkModel& model) {
     const int32_t rows = in.count("sample count", columns * 16, 1);
     model.facing_targets.resize(rows, columns);
     for (float& value : model.facing_targets.reshaped<Eigen::RowMajor>())
-      value = static_cast<float>(in.u16("place")) / place_steps - farthest_place;
+      value = place_from_file(in.u16("place"));
     const int32_t trees = in.i32("tree count", 1, most);
     model.rising = read_forest(in, LeafKind::samples, trees, rows, invariant_feature_count(model.params));
     model.facing = read_forest(in, LeafKind::samples, trees, rows, upright_feature_count(model.params));

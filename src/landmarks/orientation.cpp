@@ -61,6 +61,12 @@ double fit(const Matrix3& correlation, const Matrix3& turn) {
   return (turn.transpose() * correlation).trace();
 }
 
+// Of all turns about the y axis.
+double best_upright_fit(const Matrix3& correlation) {
+  return correlation(1, 1) +
+         std::hypot(correlation(0, 0) + correlation(2, 2), correlation(0, 2) - correlation(2, 0));
+}
+
 Matrix3 about_up(double angle) { return Eigen::AngleAxisd(angle, Vector3::UnitY()).toRotationMatrix(); }
 
 // How a body that stands upright in `placed` may face: as it is, backwards, and where else it seems to.
@@ -94,7 +100,7 @@ std::vector<Heading> headings_to_try(const LandmarkModel& model, const SurfaceAn
       correlation(expected_places(model.rising, model.facing_targets, invariant_features(analysis, count)),
                   placed, {1, 1, 1}, {1, 1, 1});
   const Matrix3 turn = best_turn(risen);
-  if (any_way || fit(risen, turn) > fit(risen, Matrix3::Identity()) + clearly_tilted)
+  if (any_way || fit(risen, turn) > best_upright_fit(risen) + clearly_tilted)
     for (Heading& heading : headings_about_up(model, analysis, turned(placed, turn), 0)) {
       heading.frame = heading.frame * turn;
       heading.penalty += any_way ? 0 : tilted_penalty;

@@ -150,7 +150,8 @@ void learn_facing(LandmarkModel& model, const std::vector<const Lesson*>& lesson
     const RowMatrixf placed = placed_features(lesson->analysis, count);
     invariant.middleRows(row, count) = invariant_features(lesson->analysis, count);
     upright.middleRows(row, count) = upright_features(lesson->analysis, placed);
-    model.facing_targets.middleRows(row, count) = placed;
+    model.facing_targets.middleRows(row, count) =
+        placed.unaryExpr([](float value) { return place_from_file(place_to_file(value)); });
     row += count;
   }
   const ForestParams forest{.tree_count = 12,
