@@ -61,6 +61,7 @@ void check(const focal_skeleton_params& params) {
   check_range("focal_skeleton_params.names", params.names, FOCAL_BONE_NAMES_AS_TRAINED,
               FOCAL_BONE_NAMES_UNITY);
   check_flag("focal_skeleton_params.rest_pose", params.rest_pose);
+  check_reserved("focal_skeleton_params.reserved", params.reserved);
   check_flag("focal_skeleton_params.symmetric", params.symmetric);
   check_range("focal_skeleton_params.max_influences", params.max_influences, 1, 2 * most_influences);
   if (params.skeleton_template && params.animations)

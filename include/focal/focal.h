@@ -724,6 +724,7 @@ typedef struct focal_skeleton_params {
   const char* skeleton_template;
   /* Joints that move one vertex, at most: 1 to 8, default 4. Above 4 the file has JOINTS_1 and WEIGHTS_1 too. */
   int32_t max_influences;
+  int32_t reserved;
 } focal_skeleton_params;
 
 FOCAL_API focal_status focal_skeleton_params_init(focal_skeleton_params* params, size_t struct_size);

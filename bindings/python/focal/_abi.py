@@ -328,6 +328,7 @@ class focal_skeleton_params(Structure):
         ("symmetric", c_int32),
         ("skeleton_template", c_char_p),
         ("max_influences", c_int32),
+        ("reserved", c_int32),
     ]
 
 
