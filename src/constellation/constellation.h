@@ -56,7 +56,7 @@ struct ConstellationParams {
   double unary_weight = 5, pair_weight = 4, handedness_weight = 2;
   double absent_cost = 7;  // of leaving a landmark out, against all that a place costs
   int32_t restarts = 32;
-  double energy_margin = 20;  // of the other choices above the best
+  double energy_margin = 12;  // of the other choices above the best
   int32_t most_choices = 4;
   uint64_t seed = 0;
 };

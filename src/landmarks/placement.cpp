@@ -178,7 +178,7 @@ Supposition suppose(const LandmarkModel& model, const SurfaceAnalysis& analysis,
   result.candidates = make_candidates(peaks, start.votes, analysis, result.vertices, execution);
   result.candidates.certain = std::move(certain);
   ConstellationParams how;
-  if (model.params.oriented) how.restarts = oriented_restarts;
+  if (model.params.oriented) how.restarts = oriented_restarts, how.energy_margin = energy_margin;
   if (!analysis.proxy.full->is_oriented) how.handedness_weight = 0;
   result.choices = choose_constellations(result.statistics, result.candidates, how, execution);
   // What the votes are worth beside those of another supposition: a wrong one scatters them.

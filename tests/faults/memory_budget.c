@@ -85,7 +85,7 @@ static void run_with(const scenario* what, const fixture* f, int64_t peak, uint6
   } else {
     ++sum->wrong, complain(what, "another answer", room, status);
   }
-  if (focal_context_memory_held(ballast.context) != held)
+  if (focal_context_memory_held(ballast.context) > held) /* less, by whole pages, is the allocator's doing */
     ++sum->wrong, complain(what, "a leak", room, status);
 }
 

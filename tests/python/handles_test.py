@@ -18,8 +18,8 @@ USES = {
     "Task": {"cancel": (), "reset": (), "progress": None, "stage": None, "cancelled": None},
     "Mesh": {"info": None, "vertex_count": None, "triangle_count": None, "surface_area": None, "vertices": None,
              "faces": None, "warnings": None, "position_of": ((0, (1, 0, 0)),), "point_at_vertex": (0,),
-             "describe": ([0],), "distances": (0,), "symmetry_plane": ()},
-    "TrainingSet": {"mesh_count": None, "add": (mesh(), [0, 1, 2]), "add_rig": (mesh(),)},
+             "describe": ([0],), "distances": (0,), "symmetry_plane": (), "write_wrap": ("w.glb",)},
+    "TrainingSet": {"mesh_count": None, "check": (), "add": (mesh(), [0, 1, 2]), "add_rig": (mesh(),)},
     "Model": {"save": ("m.focal",), "to_bytes": (), "info": None, "train_params": None, "landmark_names": None,
               "joint_names": None, "detect": (mesh(),), "analyse": (mesh(),),
               "detect_many": ([mesh()],),
@@ -30,7 +30,7 @@ USES = {
                   "correspond": (detection(),), "rig": (), "write": ("d.glb",), "write_votes": ("d.glb",),
                   "write_segments": ("d.glb",), "__len__": (), "__iter__": (), "__getitem__": (0,)},
     "Correspondence": {"points": None, "carry": ([0.0] * 514,)},
-    "Skeleton": {"joints": None, "weights": None, "info": None, "warnings": None, "write": ("s.glb",)},
+    "Skeleton": {"joints": None, "weights": None, "info": None, "warnings": None, "write": ("s.glb",), "verdict": None, "quality": None},
 }
 ALIVE = {"close", "closed", "load", "from_bytes", "train", "landmark_names"}  # asks nothing of the library's object
 
