@@ -268,7 +268,11 @@ std::optional<MarkedShape> spoiled(const MarkedShape& shape, int32_t copy, Rando
   if (damaged.mesh.vertex_count() < smallest ||
       damaged.mesh.triangle_count() < shape.mesh->surface.triangle_count() / 3)
     return std::nullopt;
-  MarkedShape result{std::make_shared<PreparedMesh>(prepare(std::move(damaged.mesh), {}, execution)), {}};
+  // As the whole shape is: a speck that a hole leaves does not make it a body of many parts.
+  const auto analysed = shape.mesh->is_wrapped ? AnalysedSurface::wrapped : AnalysedSurface::as_it_is;
+  MarkedShape result{
+      std::make_shared<PreparedMesh>(prepare(std::move(damaged.mesh), {.analysed = analysed}, execution)),
+      {}};
   for (const auto& mark : damaged.marks) {
     result.marks.emplace_back();
     if (!mark) continue;
@@ -343,7 +347,7 @@ std::vector<Lessons> make_lessons(const TrainingSet& set, const TrainParams& par
     how.seed = params.seed, how.stream = static_cast<uint64_t>(s);
     if (copy == 0) {
       shapes[s].whole = make_lesson(set.shapes[s], how, execution.inner());
-    } else if (auto bad = spoiled(set.shapes[s], copies > 2 ? copy - 1 : static_cast<int32_t>(s % 3),
+    } else if (auto bad = spoiled(set.shapes[s], static_cast<int32_t>((copy - 1 + s) % 3),
                                   Random(params.seed, 5000 + i), execution.inner())) {
       how.max_samples = std::min({how.max_samples, spoiled_samples, 2 * share / 5});
       spoiled_lessons[i] = make_lesson(*std::move(bad), how, execution.inner());

@@ -150,7 +150,8 @@ MarkedShape posed(const MarkedShape& shape, const std::vector<SkeletonJoint>& sk
   for (Matrix4& one : motion) one = one * build;
   TriangleMesh moved{skinned(shape.mesh->surface.positions, rig.influences, motion),
                      shape.mesh->surface.triangles};
-  const auto mesh = std::make_shared<const PreparedMesh>(prepare(std::move(moved)));
+  const auto mesh = std::make_shared<const PreparedMesh>(
+      prepare(std::move(moved), {.analysed = AnalysedSurface::as_it_is}));
   MarkedShape result{mesh, {}, ShapeRig{}, true};
   for (const auto& mark : shape.marks) {
     std::optional<SurfacePoint> carried;

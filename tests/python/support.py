@@ -83,7 +83,7 @@ def model():
 
 @functools.lru_cache(maxsize=None)
 def detection():
-    return model().detect(mesh(), seed=2)
+    return model().detect(mesh())
 
 
 def glb(vertices, faces):
