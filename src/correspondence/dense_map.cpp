@@ -55,9 +55,10 @@ FunctionalMap map_between(const Detection& from, const Detection& to, const Exec
   const SurfaceAnalysis &a = *from.analysis, &b = *to.analysis;
   auto first = nearest_rows(nearness(from, shared, execution), nearness(to, shared, execution));
   execution.check_cancelled();
-  return zoom_out({a.eigenfunctions, a.operators.mass.cast<float>()},
-                  {b.eigenfunctions, farthest_points(b.surface().positions, spread_vertices)},
-                  std::move(first), rounds_of_map, execution);
+  return zoom_out(
+      {a.eigenfunctions, a.operators.mass.cast<float>()},
+      {b.eigenfunctions, farthest_points(b.surface().positions, spread_vertices), b.surface().positions},
+      std::move(first), rounds_of_map, execution);
 }
 
 // Of every vertex of `a` the point of `b` that is nearest in the embedding.

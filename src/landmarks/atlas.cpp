@@ -57,7 +57,8 @@ void remember_rig(const SurfaceAnalysis& analysis, const std::vector<int32_t>& s
 
 // Where each remembered point starts: between the spread vertices with the most similar distances to the landmarks of both.
 PlacesBetween first_images(const AtlasShape& shape, float reach, const std::vector<int32_t>& landmark,
-                           const RowMatrixf& fields, const std::vector<int32_t>& spread) {
+                           const RowMatrixf& fields, const SpectralTargets& targets) {
+  const std::vector<int32_t>& spread = targets.spread;
   std::vector<Eigen::Index> shared;
   for (size_t p = 0; p < landmark.size(); ++p)
     if (shape.marked[landmark[p]]) shared.push_back(static_cast<Eigen::Index>(p));
@@ -66,7 +67,7 @@ PlacesBetween first_images(const AtlasShape& shape, float reach, const std::vect
     for (size_t i = 0; i < spread.size(); ++i) here(i, s) = fields(shared[s], spread[i]);
     there.col(s) = shape.distances.col(landmark[shared[s]]).cast<float>() * (reach / target_steps);
   }
-  PlacesBetween images = nearest_between(there, here);
+  PlacesBetween images = nearest_between(there, here, rows_of(targets.positions, spread));
   for (int32_t& i : images.vertex) i = spread[i];
   images.vertex.resize(shape.samples.Phi.rows() * PlacesBetween::vertices,
                        0);  // the marks follow, without weight
@@ -183,7 +184,9 @@ std::vector<Start> most_alike(std::vector<Start> starts, const std::vector<Atlas
 SpectralTargets spectral_targets(const SurfaceAnalysis& analysis, int32_t spread) {
   // The samples are drawn by number: unlike farthest points, of which many are ties, they stay when the mesh is moved.
   const auto count = std::min<size_t>(analysis.samples.size(), spread);
-  return {analysis.eigenfunctions, {analysis.samples.begin(), analysis.samples.begin() + count}};
+  return {analysis.eigenfunctions,
+          {analysis.samples.begin(), analysis.samples.begin() + count},
+          analysis.surface().positions};
 }
 
 }  // namespace
@@ -230,7 +233,7 @@ std::vector<ShapeMap> map_shapes(const std::vector<AtlasShape>& atlas, std::span
   const SpectralTargets targets = spectral_targets(analysis, params.spread);
   std::vector<Start> starts(among.size());
   parallel_for(execution, static_cast<int64_t>(among.size()), [&](int64_t s) {
-    starts[s] = {among[s], first_images(atlas[among[s]], reach, landmark, fields, targets.spread)};
+    starts[s] = {among[s], first_images(atlas[among[s]], reach, landmark, fields, targets)};
   });
   if (params.most_alike > 0 && params.most_alike < static_cast<int32_t>(starts.size()))
     starts = most_alike(std::move(starts), atlas, analysis, targets, params, execution);

@@ -16,6 +16,8 @@ namespace {
 constexpr CarryParams thorough{.map = {.first = 20, .last = 120, .step = 8}, .most_alike = 0};
 constexpr CarryParams quick{.map = {.first = 20, .last = 120, .step = 20}, .spread = 600, .most_alike = 3};
 constexpr double alike_falloff = 30;       // a map counts exp(-falloff (residual - least residual))
+// Maps that fit this badly are as often wrong as right, which few landmarks or an unlike body cause; worse ones have no say.
+constexpr double doubtful_residual = 0.69, residual_width = 0.015;
 constexpr double outlier_distance = 0.03;  // of sqrt(area): marks farther from the consensus count less
 constexpr int rounds = 8;                  // of reweighting
 constexpr int median_rounds = 10;
@@ -76,6 +78,10 @@ std::vector<double> weights_of(const std::vector<CarriedMarks>& carried) {
   return weights;
 }
 
+double trust_in(const CarriedMarks& carried) {
+  return 1 / (1 + std::exp((carried.residual - doubtful_residual) / residual_width));
+}
+
 // The landmark's own place, as one more shape of mean weight, and its marks on the training shapes. own_share: of that
 // weight, which counts.
 std::vector<Opinion> opinions_on(int32_t landmark, const SurfacePoint& own, double own_share,
@@ -88,7 +94,7 @@ std::vector<Opinion> opinions_on(int32_t landmark, const SurfacePoint& own, doub
       {position_of(surface, own), own_share * mean, normal_at(surface, normals, own)}};
   for (size_t s = 0; s < carried.size(); ++s)
     for (const auto& [at, share] : carried[s].places[landmark])
-      opinions.push_back({at.position, weights[s] * share, at.normal.normalized()});
+      opinions.push_back({at.position, weights[s] * share * trust_in(carried[s]), at.normal.normalized()});
   return opinions;
 }
 

@@ -22,10 +22,12 @@ struct SpectralSamples {
 struct SpectralTargets {
   RowMatrixf Phi;  // vertices x k
   std::vector<int32_t> spread;
+  MatrixX3 positions;  // of the vertices, on a surface of area 1
 };
 
 // Where points lie on that surface: each between a few vertices, the nearest first, with weights that sum to 1. A whole vertex
-// would be one decision a point, which a rounding can turn.
+// would be one decision a point, which a rounding can turn. Vertices far from the nearest have no weight: where two sides of a
+// body look alike, the mean of both is inside.
 struct PlacesBetween {
   static constexpr int32_t vertices = 3;
   std::vector<int32_t> vertex;  // points x vertices
@@ -62,8 +64,9 @@ FunctionalMap zoom_out(const SpectralSamples& from, const SpectralTargets& to, P
 // Per row of places the nearest row of targets; the first of equal ones.
 std::vector<int32_t> nearest_rows(const RowMatrixf& places, const RowMatrixf& targets);
 
-// The same, between the nearest rows.
-PlacesBetween nearest_between(const RowMatrixf& places, const RowMatrixf& targets);
+// The same, between the nearest rows. positions: of the targets, as in SpectralTargets; or none, and all of the nearest count.
+PlacesBetween nearest_between(const RowMatrixf& places, const RowMatrixf& targets,
+                              const MatrixX3& positions = {});
 
 // `count` points, each the one farthest from those before it, starting with `first`.
 std::vector<int32_t> farthest_points(const MatrixX3& positions, int32_t count, int32_t first = 0);

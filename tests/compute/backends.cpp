@@ -285,7 +285,7 @@ TEST_CASE("functional maps") {
   for (const Subject& of : subjects()) {
     const OnDevice device(of);
     const SpectralTargets to{device.surface.spectrum(eigen_params()).Phi.cast<float>(),
-                             some_vertices(of, 250)};
+                             some_vertices(of, 250), of.mesh->surface.positions};
     std::vector<int32_t> initial;
     for (const int32_t v : at) initial.push_back(v % of.mesh->surface.vertex_count());
     for (const MapParams& params : {MapParams{.first = 12, .last = 60, .step = 12, .exact_from = 140},

@@ -83,7 +83,7 @@ def model():
 
 @functools.lru_cache(maxsize=None)
 def detection():
-    return model().detect(mesh(), seed=6)  # of 8 seeds 3 lose a limb: three landmarks of a toy are few
+    return model().detect(mesh())
 
 
 def glb(vertices, faces):

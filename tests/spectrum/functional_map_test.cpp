@@ -69,6 +69,7 @@ TEST_CASE("farthest points are different, and cover the surface") {
 TEST_CASE("a rough start is refined to the map that is known: a surface to itself") {
   const TriangleMesh mesh = lumpy();
   const RowMatrixf Phi = eigenfunctions(mesh);
+  const MatrixX3 unit = mesh.positions / std::sqrt(surface_area(mesh));
   const auto points = farthest_points(mesh.positions, 300);
   SpectralSamples from{RowMatrixf(300, Phi.cols()), Eigen::VectorXf::Constant(300, 1.0f / 300)};
   std::vector<int32_t> rough;
@@ -78,7 +79,7 @@ TEST_CASE("a rough start is refined to the map that is known: a surface to itsel
     const auto near = connected_ball(make_operators(mesh).L, mesh.positions, points[i], 0.3);
     rough.push_back(near[random.below(static_cast<uint32_t>(near.size()))]);
   }
-  const FunctionalMap map = zoom_out(from, {Phi, farthest_points(mesh.positions, 800)}, rough,
+  const FunctionalMap map = zoom_out(from, {Phi, farthest_points(mesh.positions, 800), unit}, rough,
                                      {.first = 16, .last = 64, .step = 8});
   double before = 0, after = 0;
   for (int i = 0; i < 300; ++i) {
@@ -93,7 +94,7 @@ TEST_CASE("a rough start is refined to the map that is known: a surface to itsel
   // Points before exact_from stay at vertices of the spread; those after it lie at the nearest of all.
   const auto spread = farthest_points(mesh.positions, 400);
   const FunctionalMap partly =
-      zoom_out(from, {Phi, spread}, rough, {.first = 16, .last = 64, .step = 8, .exact_from = 200});
+      zoom_out(from, {Phi, spread, unit}, rough, {.first = 16, .last = 64, .step = 8, .exact_from = 200});
   for (int i = 0; i < 200; ++i)
     CHECK(std::find(spread.begin(), spread.end(), partly.image[i]) != spread.end());
   double exact = 0;

@@ -59,13 +59,14 @@ struct NearestFew {
     for (; at > 0 && next > score[at - 1]; --at) score[at] = score[at - 1], target[at] = target[at - 1];
     score[at] = next, target[at] = number;
   }
-  FOCAL_HOST_DEVICE void weigh(float* weight) const {
+  template <class Near>
+  FOCAL_HOST_DEVICE void weigh(float* weight, const Near& near) const {
     int32_t last = kept - 1;
     while (last > 0 && score[last] == worst) --last;
     float sum = 0;
     for (int32_t i = 0; i < kept - 1; ++i) {
       const float ahead = i < last ? score[i] - score[last] : 0;
-      sum += weight[i] = ahead * ahead;
+      sum += weight[i] = ahead * ahead * near(i);
     }
     for (int32_t i = 0; i < kept - 1; ++i) weight[i] = sum > 0 ? weight[i] / sum : static_cast<float>(i == 0);
   }
@@ -92,6 +93,8 @@ struct NearestInChunk {
 };
 
 struct NearestOfAll {
+  static constexpr double neighbourhood = 0.06;  // as in functional_map.cpp
+  const double* position;                        // of all vertices, n x 3
   const float* best;
   const int32_t *target, *spread;  // spread: numbers of the targets, or null
   int32_t *image, *vertex;         // vertex, weight: what each point lies between, as in GatherBetween
@@ -102,11 +105,26 @@ struct NearestOfAll {
     for (int64_t at = p; at < static_cast<int64_t>(chunks) * NearestFew::kept * points; at += points)
       few.add(best[at], target[at]);
     constexpr int32_t between = GatherBetween::between;
-    few.weigh(weight + p * between);
-    for (int32_t i = 0; i < between; ++i)
-      vertex[p * between + i] = spread ? spread[few.target[i]] : few.target[i];
+    int32_t* to = vertex + p * between;
+    for (int32_t i = 0; i < between; ++i) to[i] = spread ? spread[few.target[i]] : few.target[i];
+    few.weigh(weight + p * between, Near{position, to});
     image[p] = vertex[p * between];
   }
+
+ private:
+  struct Near {
+    const double* position;
+    const int32_t* vertex;
+    FOCAL_HOST_DEVICE float operator()(int32_t i) const {
+      double square = 0;
+      for (int c = 0; c < 3; ++c) {
+        const double apart = position[3 * int64_t{vertex[i]} + c] - position[3 * int64_t{vertex[0]} + c];
+        square += apart * apart;
+      }
+      const double inside = 1 - square / (neighbourhood * neighbourhood);
+      return static_cast<float>(inside > 0 ? inside * inside : 0);
+    }
+  };
 };
 
 struct MapError {

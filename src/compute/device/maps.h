@@ -14,6 +14,7 @@ class MapRefinement {
                 const float* weight)
       : queue_(surface.queue),
         phi_(surface.eigenfunctions.data()),
+        position_(surface.position.data()),
         n_(surface.n),
         stride_(map.eigenpairs),
         points_(map.points),
@@ -79,13 +80,14 @@ class MapRefinement {
     queue_.launch(int64_t{chunks} * points,
                   NearestInChunk{product.data(), half.data(), best.data(), target.data(), points, targets});
     queue_.launch(points,
-                  NearestOfAll{best.data(), target.data(), numbers, image_.data() + first,
+                  NearestOfAll{position_, best.data(), target.data(), numbers, image_.data() + first,
                                vertex_.data() + int64_t{first} * GatherBetween::between,
                                weight_.data() + int64_t{first} * GatherBetween::between, points, chunks});
   }
 
   Queue& queue_;
   const float* phi_;
+  const double* position_;
   int32_t n_, stride_, points_, most_;
   Array<float> place_, weighted_, whitening_, spread_rows_, C_, product_, at_images_;
   Array<int32_t> spread_, image_, vertex_;
