@@ -147,7 +147,7 @@ std::string balls_of(const Figure& figure, const Panel& panel, std::map<std::str
   std::string svg;
   for (const size_t i : order) {
     const Mark& mark = figure.marks[i];
-    const bool hidden = is_hidden(panel, i);
+    const bool hidden = !mark.inside && is_hidden(panel, i);
     const std::string paint = mark.paint.empty() ? hue(colours.at(mark.name)) : mark.paint;
     const std::string place = "cx=\"" + std::to_string(rounded(panel.marks[i][0])) + "\" cy=\"" +
                               std::to_string(rounded(panel.marks[i][1])) + "\"";

@@ -15,6 +15,7 @@ struct Mark {
   Point position;
   bool uncertain = false;  // drawn hollow
   std::string paint = {};  // a colour of CSS; empty: one of its name's own
+  bool inside = false;     // of the surface, through which it shows in full
 };
 
 struct Figure {

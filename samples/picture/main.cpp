@@ -6,6 +6,7 @@
 #include <exception>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -18,7 +19,8 @@ namespace {
 
 constexpr const char* usage =
     "usage: focal_picture [--columns N] OUT.svg "
-    "MESH.glb[,LANDMARKS.json[,CAPTION[,PITCH[,YAW[,ANIMATION,SECONDS]]]]] ...\n";
+    "MESH.glb[,MARKS.json[,CAPTION[,PITCH[,YAW[,ANIMATION,SECONDS]]]]] ...\n"
+    "  MARKS.json: landmarks, or what `focal rig --json` reports, whose joints and bones are drawn\n";
 
 void check(focal_status status) {
   if (status != FOCAL_OK) throw std::runtime_error(focal_last_error());
@@ -46,18 +48,29 @@ void load_mesh(const focal_context* context, const std::string& path, const std:
     figure.triangles.push_back({triangles[i], triangles[i + 1], triangles[i + 2]});
 }
 
-std::vector<picture::Mark> load_marks(const std::string& path) {
+void add_skeleton(const nlohmann::json& joints, picture::Figure& figure) {
+  std::map<std::string, size_t> number;
+  for (const auto& joint : joints) {
+    const std::string name = joint.at("name");
+    number[name] = figure.marks.size();
+    figure.marks.push_back(
+        {.name = name, .position = joint.at("position").get<picture::Point>(), .inside = true});
+    if (const auto& parent = joint.at("parent"); parent.is_string())
+      figure.bones.push_back({number.at(parent), number[name]});
+  }
+}
+
+void load_marks(const std::string& path, picture::Figure& figure) {
   std::ifstream file(path);
   if (!file) throw std::runtime_error("cannot read " + path);
-  std::vector<picture::Mark> marks;
   const auto document = nlohmann::json::parse(file);
+  if (document.contains("joints")) return add_skeleton(document["joints"], figure);
   for (const auto& landmark : document.at("landmarks")) {
     const std::string status = landmark.value("status", "found");
     if (status == "absent" || !landmark.contains("position") || landmark["position"].is_null()) continue;
-    marks.push_back(
+    figure.marks.push_back(
         {landmark.at("name"), landmark.at("position").get<picture::Point>(), status == "uncertain"});
   }
-  return marks;
 }
 
 picture::Figure load_figure(const focal_context* context, const std::string& argument) {
@@ -71,7 +84,7 @@ picture::Figure load_figure(const focal_context* context, const std::string& arg
   std::getline(words, yaw, ',');
   std::getline(words, animation, ',') && std::getline(words, seconds, ',');
   load_mesh(context, mesh, animation, std::stod(seconds), figure);
-  if (!marks.empty()) figure.marks = load_marks(marks);
+  if (!marks.empty()) load_marks(marks, figure);
   if (!pitch.empty()) figure.pitch = std::stod(pitch);
   figure.yaw = yaw.empty() ? picture::best_yaw(figure) : std::stod(yaw);
   return figure;
