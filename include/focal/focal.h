@@ -217,7 +217,10 @@ typedef struct focal_mesh_params {
      instead of refusing the mesh (INVALID_MESH); for files too. Their numbers stay taken:
      focal_mesh_triangles gives 0 0 0 there, focal_mesh_positions 0 0 0 for a vertex at no place. Default 0 */
   int32_t lenient;
-  int32_t reserved;
+  /* 1: all of the mesh is analysed. Default 0: what focal_mesh_get_left_out lists is not: nodes of a file that
+     KHR_node_visibility hides, and separate parts that are plainly not the character, with a warning each. A mesh
+     of a single part, and what has a skin or hangs on a joint, is always kept. Was reserved */
+  int32_t keep_scenery;
   struct focal_task* task; /* cancels loading a large mesh; NULL: none */
 } focal_mesh_params;
 
@@ -243,7 +246,8 @@ FOCAL_API focal_status focal_mesh_desc_init(focal_mesh_desc* desc, size_t struct
  * params may be NULL. Errors: INVALID_MESH, MESH_TOO_SMALL; from files also FILE_NOT_FOUND, IO, INVALID_FILE,
  * UNSUPPORTED. A glTF scene (.gltf or .glb) becomes one mesh: all triangle primitives in node order, node
  * transforms applied, skins at bind pose; vertices and triangles are numbered through in that order. From
- * memory, external files are refused. */
+ * memory, external files are refused. Hidden nodes are not part of the mesh; other scenery is, but counts as what no
+ * triangle uses: no landmark lies there, and it gets no weights. */
 FOCAL_API focal_status focal_mesh_create(const focal_context* context, const focal_mesh_desc* desc,
                                          const focal_mesh_params* params, focal_mesh** out_mesh);
 FOCAL_API focal_status focal_mesh_load_gltf(const focal_context* context, const char* path,
@@ -276,6 +280,9 @@ typedef struct focal_mesh_info {
      face one way; detection then tells left from right by distances alone */
   int32_t is_oriented;
   int32_t is_wrapped; /* 1: one closed surface round the mesh is analysed, see focal_surface. Was reserved */
+  uint64_t left_out_triangles; /* scenery that is not analysed; of HIDDEN, none */
+  uint32_t left_out_count;     /* focal_mesh_get_left_out */
+  uint32_t reserved;
 } focal_mesh_info;
 
 FOCAL_API focal_status focal_mesh_info_init(focal_mesh_info* info, size_t struct_size);
@@ -286,6 +293,32 @@ FOCAL_API const uint32_t* focal_mesh_triangles(const focal_mesh* mesh); /* trian
 
 /* A plain sentence on what was found and done; index below warning_count. */
 FOCAL_API const char* focal_mesh_warning(const focal_mesh* mesh, uint32_t index);
+
+/* What of a scene is not analysed unless focal_mesh_params.keep_scenery is 1, and why. */
+typedef int32_t focal_scenery;
+enum {
+  FOCAL_SCENERY_HIDDEN = 0, /* KHR_node_visibility hides the node or one above it */
+  FOCAL_SCENERY_SHEET = 1,  /* flat, and it reaches beyond the character on all sides: a ground, a backdrop */
+  FOCAL_SCENERY_ENCLOSURE = 2, /* a convex shape that contains most of the character: a dome, a collider */
+  FOCAL_SCENERY_APART = 3 /* farther from the character than that is large; or one convex thing beside it */
+};
+
+typedef struct focal_left_out {
+  uint32_t struct_size;
+  focal_scenery reason;
+  const char* name;        /* "node 'Ground'", "node 3", "the mesh"; lives as long as the mesh */
+  uint64_t triangle_count; /* that are left out; 0 where it is HIDDEN */
+  /* 1: all of the node; files are written with this node and its mesh as they were, without a skin. 0: the
+     rest of the node is analysed, and in a written file the first joint moves what is left out */
+  int32_t is_whole_node;
+  uint32_t reserved;
+} focal_left_out;
+
+FOCAL_API focal_status focal_left_out_init(focal_left_out* left_out, size_t struct_size);
+
+/* index below focal_mesh_info.left_out_count; hidden nodes come first. Errors: INVALID_ARGUMENT. */
+FOCAL_API focal_status focal_mesh_get_left_out(const focal_mesh* mesh, uint32_t index,
+                                               focal_left_out* out_left_out);
 
 /* Writes a .glb of the closed surface round the mesh, to look at: what is analysed of a mesh that is_wrapped, and what
  * FOCAL_SURFACE_WRAPPED would analyse of another. It lies where the mesh lies, in its units. Runs on one thread. Errors:
@@ -791,8 +824,8 @@ FOCAL_API focal_status focal_skeleton_weights(const focal_skeleton* skeleton, ui
 
 FOCAL_API const char* focal_skeleton_warning(const focal_skeleton* skeleton, uint32_t index);
 
-/* Writes the caller's own glTF, nothing lost, with the skeleton, a skin for every mesh it shows, and the
- * landmarks as focal_detection_write_gltf does. Same rules for the path, same errors. */
+/* Writes the caller's own glTF, nothing lost, with the skeleton, a skin for every mesh it shows (see
+ * focal_left_out), and the landmarks as focal_detection_write_gltf does. Same rules for the path, same errors. */
 FOCAL_API focal_status focal_skeleton_write_gltf(const focal_skeleton* skeleton, const char* path);
 
 #ifdef __cplusplus
