@@ -12,6 +12,7 @@ namespace focal {
 namespace {
 
 constexpr size_t most_candidates = 64, most_samples = 20000;
+constexpr double convex = 0.95;     // share of the area, see ConvexBody
 constexpr int32_t most_rounds = 4;  // each may free the view on more: a ground below a helper far away
 
 struct Part {
@@ -53,11 +54,14 @@ class SceneryFinder {
   bool is_ground_or_backdrop(const Group& group, const FlatSheet& sheet) const;
   bool encloses_character(const Group& group) const;
   bool hangs_together(const Group& rest, double size) const;
+  bool mark(const std::vector<Group>& groups, SceneryKind kind);  // whether there are any
   bool find_sheets();
   bool find_enclosures();
   bool find_apart();
   Group lone_helpers(const Group& joined) const;
-  Group joined_to_character() const;
+  bool is_convex(int32_t part) const;
+  Group surely_character() const;
+  Group joined_to(Group joined) const;
   bool leaves_character() const;
   FoundScenery result() const;
 
@@ -175,33 +179,27 @@ bool SceneryFinder::is_ground_or_backdrop(const Group& group, const FlatSheet& s
   const auto below = std::count_if(heights.begin(), heights.end(), [&](double h) { return h < -margin; });
   const auto inside = std::count_if(
       rest.begin(), rest.end(), [&](int32_t v) { return covers(sheet, surface_.positions.row(v), margin); });
-  const bool is_below =
-      std::abs(sheet.normal.y()) > horizontal && (sheet.normal.y() > 0 ? above > below : below > above);
+  const bool lies = std::abs(sheet.normal.y()) > horizontal;
+  if (lies && (sheet.normal.y() > 0) != (above > below)) return false;  // over the character, as a hat is
   const double area = polygon_area(convex_outline(std::move(shadow)));
   return static_cast<double>(inside) >= covered * count && high - low >= least_height * box.diagonal() &&
          static_cast<double>(std::min(above, below)) <= wrong_side * count &&
-         sheet.outline_area >= (is_below ? ground_larger : larger) * area;
+         sheet.outline_area >= (lies ? ground_larger : larger) * area;
 }
 
 bool SceneryFinder::find_sheets() {
-  struct Candidate {
-    Group group;
-    FlatSheet sheet;
-  };
-  std::vector<Candidate> sheets;
+  std::vector<std::pair<Group, FlatSheet>> sheets;
   for (Part& part : parts_) part.is_sheet = false;
   for (Group& group : candidates()) {
     const auto sheet = flat_sheet(surface_, triangles_of(group));
     if (!sheet) continue;
     for (const int32_t p : group) parts_[p].is_sheet = true;
-    sheets.push_back({std::move(group), *sheet});
+    sheets.emplace_back(std::move(group), *sheet);
   }
   std::vector<Group> found;
-  for (Candidate& one : sheets)
-    if (is_ground_or_backdrop(one.group, one.sheet)) found.push_back(std::move(one.group));
-  for (const Group& group : found)
-    for (const int32_t p : group) parts_[p].found = SceneryKind::sheet;
-  return !found.empty();
+  for (auto& [group, sheet] : sheets)
+    if (is_ground_or_backdrop(group, sheet)) found.push_back(std::move(group));
+  return mark(found, SceneryKind::sheet);
 }
 
 // Limbs stuck into a round body fall apart without it; a character in a dome does not.
@@ -224,7 +222,7 @@ bool SceneryFinder::hangs_together(const Group& rest, double size) const {
 }
 
 bool SceneryFinder::encloses_character(const Group& group) const {
-  constexpr double convex = 0.95, thick = 0.1, most_inside = 0.6, all_inside = 0.99;
+  constexpr double thick = 0.1, most_inside = 0.6, all_inside = 0.99;
   constexpr double same_size = 0.5, larger = 1.2, simple = 0.25, no_body = 0.4;
   const ConvexBody body = convex_body(surface_, triangles_of(group));
   const double size = body.box.diagonal();
@@ -249,30 +247,35 @@ bool SceneryFinder::find_enclosures() {
   std::vector<Group> found;
   for (Group& group : candidates())
     if (encloses_character(group)) found.push_back(std::move(group));
-  for (const Group& group : found)
-    for (const int32_t p : group) parts_[p].found = SceneryKind::enclosure;
-  return !found.empty();
+  return mark(found, SceneryKind::enclosure);
 }
 
-// The parts nearer to the character than its own size, step by step. It begins at what surely is character, or at
-// the part with the most vertices.
-Group SceneryFinder::joined_to_character() const {
+bool SceneryFinder::mark(const std::vector<Group>& groups, SceneryKind kind) {
+  for (const Group& group : groups)
+    for (const int32_t p : group) parts_[p].found = kind;
+  return !groups.empty();
+}
+
+// What surely is character; else the part with the most vertices, a convex one only where the eight largest are.
+Group SceneryFinder::surely_character() const {
+  constexpr size_t most = 8;
+  Group parts = rest_of(Mask(parts_.size(), 0)), sure;
+  for (const int32_t p : parts)
+    if (parts_[p].is_character) sure.push_back(p);
+  if (!sure.empty() || parts.empty()) return sure;
+  std::stable_sort(parts.begin(), parts.end(),
+                   [&](int32_t a, int32_t b) { return parts_[a].vertex_count > parts_[b].vertex_count; });
+  parts.resize(std::min(parts.size(), most));
+  const auto body = std::find_if(parts.begin(), parts.end(), [&](int32_t p) { return !is_convex(p); });
+  return {body == parts.end() ? parts.front() : *body};
+}
+
+// The parts nearer to the character than its own size, step by step.
+Group SceneryFinder::joined_to(Group joined) const {
   constexpr double far = 0.75;  // of the size of what is joined, or of the largest part
+  Group others = rest_of(mask_of(joined));
   double largest = 0;
-  int32_t start = -1;
-  bool is_sure = false;
-  for (size_t p = 0; p < parts_.size(); ++p) {
-    const Part& part = parts_[p];
-    if (!part.counts()) continue;
-    is_sure |= part.is_character;
-    largest = std::max(largest, part.box.diagonal());
-    if (start < 0 || part.vertex_count > parts_[start].vertex_count) start = static_cast<int32_t>(p);
-  }
-  Group joined, others;
-  for (const int32_t p : rest_of(Mask(parts_.size(), 0))) {
-    const bool is_start = is_sure ? parts_[p].is_character : p == start;
-    (is_start ? joined : others).push_back(p);
-  }
+  for (const int32_t p : others) largest = std::max(largest, parts_[p].box.diagonal());
   Box box = box_of(joined);
   for (size_t before = 0; before != joined.size();) {
     before = joined.size();
@@ -285,9 +288,13 @@ Group SceneryFinder::joined_to_character() const {
   return joined;
 }
 
+bool SceneryFinder::is_convex(int32_t part) const {
+  return convex_body(surface_, parts_[part].triangles).share >= convex;
+}
+
 // A single convex thing beside the character, nothing like it elsewhere: hands that float come in pairs.
 Group SceneryFinder::lone_helpers(const Group& joined) const {
-  constexpr double far = 0.35, small = 0.5, convex = 0.95, alike = 0.02;
+  constexpr double far = 0.35, small = 0.5, alike = 0.02;
   constexpr size_t many = 1000;  // each is compared with each
   Group result;
   if (joined.size() < 2 || joined.size() > many) return result;
@@ -303,21 +310,23 @@ Group SceneryFinder::lone_helpers(const Group& joined) const {
                   std::abs(parts_[other].box.diagonal() - size) > alike * size;
     }
     if (is_alone && size <= small * rest.diagonal() && gap(rest, parts_[p].box) >= far * rest.diagonal() &&
-        convex_body(surface_, parts_[p].triangles).share >= convex)
+        is_convex(p))
       result.push_back(p);
   }
   return result;
 }
 
 bool SceneryFinder::find_apart() {
-  const Group joined = joined_to_character();
-  Group apart = rest_of(mask_of(joined));
-  if (vertices_of(apart) >= vertices_of(joined)) return false;  // nobody knows which is the character
+  const Group start = surely_character();
+  if (start.empty()) return false;
+  const Group joined = joined_to(start);
+  Group apart = rest_of(mask_of(joined)), bodies = apart;
+  if (!is_convex(start[0])) std::erase_if(bodies, [&](int32_t p) { return is_convex(p); });
+  if (vertices_of(bodies) >= vertices_of(joined)) return false;  // nobody knows which is the character
   std::erase_if(apart, [&](int32_t p) { return !parts_[p].may_be_scenery(); });
   const Group lone = lone_helpers(joined);
   apart.insert(apart.end(), lone.begin(), lone.end());
-  for (const int32_t p : apart) parts_[p].found = SceneryKind::apart;
-  return !apart.empty();
+  return !apart.empty() && mark({apart}, SceneryKind::apart);
 }
 
 bool SceneryFinder::leaves_character() const {
