@@ -55,7 +55,7 @@ struct PreparedMesh {
   int64_t invalid_triangles = 0;  // left out by lenient
   std::vector<Scenery> scenery;   // left out by leave_out_scenery: no surface triangle, no surface vertex
   int64_t scenery_triangles = 0;
-  bool is_oriented = true;            // see Orientation; where false, nothing tells left from right
+  bool is_oriented = true;            // see Orientation; where false, nothing distinguishes left from right
   std::optional<Topology> topology;   // of the surface; empty where nobody looked
   std::vector<std::string> warnings;  // plain sentences on what was found and done
 };

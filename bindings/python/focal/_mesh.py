@@ -128,7 +128,7 @@ class Mesh(Handle):
 
     @property
     def info(self) -> dict[str, Any]:
-        """All that the library tells in numbers: counts of the mesh and of the surface that is analysed
+        """All that the library reports in numbers: counts of the mesh and of the surface that is analysed
         (surface_vertex_count, ...), mean_edge_length, surface_area, load_seconds, repair_seconds, and what was found and done: invalid_triangles,
         degenerate_triangles, flipped_triangles, nonmanifold_edges, nonmanifold_vertices, boundary_loops,
         component_count, is_oriented; is_wrapped: one closed surface round the mesh is analysed; left_out_count,
