@@ -245,6 +245,11 @@ int64_t flipped_triangles(const PreparedMesh& mesh) {
   return std::count(mesh.flipped.begin(), mesh.flipped.end(), 1);
 }
 
+std::vector<std::pair<int32_t, int32_t>> bridges_of(const PreparedMesh& mesh) {
+  return mesh.components > 1 ? bridge_pairs(mesh.surface, components_of(mesh.surface))
+                             : std::vector<std::pair<int32_t, int32_t>>{};
+}
+
 MatrixX3 analysed_positions(const PreparedMesh& mesh) {
   MatrixX3 result(static_cast<Eigen::Index>(mesh.source_vertex.size()), 3);
   for (size_t v = 0; v < mesh.source_vertex.size(); ++v)
@@ -284,8 +289,6 @@ PreparedMesh prepare(TriangleMesh source, const PrepareParams& params, const Exe
   if (params.repair_orientation) inspect(mesh);
   mesh.is_wrapped = params.analysed == AnalysedSurface::wrapped ||
                     (params.analysed == AnalysedSurface::automatic && needs_wrap(mesh));
-  execution.check_cancelled();
-  mesh.bridges = bridge_pairs(mesh.surface, components);
   execution.check_cancelled();
   warn(mesh, params.pieces);
   return mesh;
