@@ -11,7 +11,7 @@
 #include "evaluation_data.h"
 #include "gltf/reader.h"
 #include "mesh/prepare.h"
-#include "skeleton/small_rig.h"
+#include "sample_humanoid.h"
 #include "surfaces.h"
 
 using namespace focal;
@@ -86,7 +86,7 @@ class Scene {
 const TriangleMesh& body() {
   static const TriangleMesh one = [] {
     const auto character = humanoid(12);
-    return mesh_of(character.rest.positions, character)->source;
+    return mesh_at(character.rest.positions, character);
   }();
   return one;
 }
