@@ -1,9 +1,9 @@
 #include "mesh/scenery.h"
 
 #include <algorithm>
-#include <limits>
-#include <numeric>
+#include <cmath>
 #include <optional>
+#include <utility>
 
 #include "mesh/box.h"
 #include "mesh/scenery_shapes.h"
@@ -162,7 +162,6 @@ bool SceneryFinder::is_ground_or_backdrop(const Group& group, const FlatSheet& s
   constexpr double covered = 0.97, slack = 0.02, wrong_side = 0.05, least_height = 0.05;
   constexpr double larger = 4, ground_larger = 1.5, horizontal = 0.99;
   Box box;
-  double low = std::numeric_limits<double>::infinity(), high = -low;
   const std::vector<int32_t> rest = samples_of_rest(mask_of(group));
   if (rest.empty()) return false;
   std::vector<double> heights;
@@ -171,9 +170,9 @@ bool SceneryFinder::is_ground_or_backdrop(const Group& group, const FlatSheet& s
     const Vector3 at = surface_.positions.row(v);
     box.add(at), shadow.push_back(on_sheet(sheet, at));
     heights.push_back(sheet.normal.dot(at - sheet.centre));
-    low = std::min(low, heights.back()), high = std::max(high, heights.back());
   }
   const double margin = slack * box.diagonal();
+  const auto [low, high] = std::ranges::minmax(heights);
   const auto count = static_cast<double>(rest.size());
   const auto above = std::count_if(heights.begin(), heights.end(), [&](double h) { return h > margin; });
   const auto below = std::count_if(heights.begin(), heights.end(), [&](double h) { return h < -margin; });
