@@ -202,6 +202,8 @@ TEST_CASE("clothes, weapons and what floats near the character stay") {
   };
   stays("cape", placed(square(4), {0.35 * e.width, 0.4 * e.height, 1}, back));
   stays("large wings", placed(square(1), {0.9 * e.width, 0.55 * e.height, 1}, back));
+  stays("flag", placed(square(1), {1.3, 1.3, 1}, {e.low.x() - 1.3, e.centre.y(), e.low.z() - 0.1}));
+  stays("fin through the body", placed(square(1), {3, 3, 1}, e.centre));
   stays("shield", placed(sphere(3), {0.4, 0.4, 0.02}, hand));
   stays("sword", box({0.02, 0.7, 0.02}, hand));
   stays("sombrero", ground(0.9 * e.width, {e.centre.x(), e.high.y() - 0.1, e.centre.z()}, 8));
@@ -251,6 +253,21 @@ TEST_CASE("round bodies and flat ones are bodies") {
                           .add("EyeR", placed(square(2), {0.1, 0.1, 1}, {0.3, 0.4, 0.01}))
                           .add("EyeL", placed(square(2), {0.1, 0.1, 1}, {-0.3, 0.4, 0.01}));
   CHECK(paper.left_out() == "");
+}
+
+TEST_CASE("what is stuck into a round body does not make a dome of it") {
+  const auto figure = [](const Vector3& at) {
+    const Extent e;
+    return placed(placed(body(), Vector3::Ones(), -e.centre), Vector3::Constant(0.25), at);
+  };
+  CHECK(Scene().add("Ball", ball(1, {0, 0, 0})).add("Badge", figure({0, 0, 0.97})).left_out() == "");
+  Scene studs;
+  studs.add("Ball", ball(1, {0, 0, 0}));
+  for (const double side : {-0.8, 0.8})
+    studs.add("Stud", figure({side, 0, 0}))
+        .add("Stud", figure({0, side, 0}))
+        .add("Stud", figure({0, 0, side}));
+  CHECK(studs.left_out() == "");
 }
 
 TEST_CASE("what has a skin stays, and shows what the character is") {
