@@ -42,12 +42,10 @@ const DescriptorKind& descriptor_at(int32_t number) {
 }
 const DistanceKind& distance_at(int32_t number) { return kind_at(distance_kinds(), number, "distances"); }
 
-Operators operators_of(const PreparedMesh& mesh) { return make_operators(mesh.surface, mesh.bridges); }
-
 RowMatrix describe(const PreparedMesh& mesh, const DescriptorKind& kind, std::span<const int32_t> vertices,
                    const Execution& execution) {
   execution.begin_stage("spectrum", 0, 0.9);
-  const Operators operators = operators_of(mesh);
+  const Operators operators = make_operators(mesh.surface, bridges_of(mesh));
   const Eigenbasis basis = eigenbasis(operators.L, operators.mass, EigenParams{}, execution);
   execution.begin_stage("descriptors", 0.9, 1);
   return kind.describe({mesh.surface, operators, basis}, vertices, execution);
@@ -56,8 +54,9 @@ RowMatrix describe(const PreparedMesh& mesh, const DescriptorKind& kind, std::sp
 std::vector<float> measure(const PreparedMesh& mesh, const DistanceKind& kind, const SurfacePoint& source,
                            const Execution& execution) {
   execution.begin_stage("distances", 0, 1);
-  const Operators operators = operators_of(mesh);
-  const auto distance = kind.make({mesh.surface, mesh.bridges, operators, true}, execution);
+  const auto bridges = bridges_of(mesh);
+  const Operators operators = make_operators(mesh.surface, bridges);
+  const auto distance = kind.make({mesh.surface, bridges, operators, true}, execution);
   const RowMatrixf row = distance->distances(std::span(&source, 1), execution);
   std::vector<float> result(mesh.surface_vertex.size(), std::numeric_limits<float>::infinity());
   const auto unit = static_cast<float>(kind.is_length ? mesh.scale : 1);

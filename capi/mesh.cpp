@@ -36,15 +36,6 @@ struct StructTraits<focal_mesh_desc> {
   static focal_mesh_desc defaults() { return {}; }
 };
 
-template <>
-struct StructTraits<focal_mesh_info> {
-  static constexpr const char* name = "focal_mesh_info";
-  static constexpr size_t first_size = 72;
-  static focal_mesh_info defaults() { return {}; }
-};
-static_assert(sizeof(focal_mesh_info) == 136 && offsetof(focal_mesh_info, repair_seconds) == 64 &&
-              offsetof(focal_mesh_info, is_oriented) == 128 && offsetof(focal_mesh_info, is_wrapped) == 132);
-
 focal_mesh_params StructTraits<focal_mesh_params>::defaults() {
   const PrepareParams prepare;
   const GltfReadParams read;
@@ -81,7 +72,7 @@ focal_mesh_params checked(const focal_mesh_params* given) {
   check_range("focal_mesh_params.max_file_bytes", static_cast<double>(params.max_file_bytes), 1, 0x1p40);
   check_range("focal_mesh_params.pose_time", params.pose_time, 0, 1e9);
   check_flag("focal_mesh_params.lenient", params.lenient);
-  check_reserved("focal_mesh_params.reserved", params.reserved);
+  check_flag("focal_mesh_params.keep_scenery", params.keep_scenery);
   return params;
 }
 
@@ -94,6 +85,7 @@ GltfReadParams read_params(const focal_mesh_params& params) {
   read.limits.file_bytes = static_cast<int64_t>(params.max_file_bytes);
   read.allow_external_files = params.allow_external_files != 0;
   read.lenient = params.lenient != 0;
+  read.hidden_too = params.keep_scenery != 0;
   return read;
 }
 
@@ -133,15 +125,32 @@ TriangleMesh mesh_of(const focal_mesh_desc& desc, bool lenient) {
   return mesh;
 }
 
+// What prepare leaves out, as the getters and the writers need it.
+void note_scenery(const PreparedMesh& mesh, std::span<const MeshPiece> pieces, MeshObject& object) {
+  for (const Scenery& one : mesh.scenery) {
+    object.left_out.push_back({static_cast<int32_t>(one.kind),
+                               pieces.empty() ? "the mesh" : pieces[one.piece].name, one.triangle_count,
+                               one.whole_piece});
+    if (pieces.empty() || !one.whole_piece) continue;
+    const MeshPiece& piece = pieces[one.piece];
+    for (GltfPrimitive& primitive : object.primitives) {
+      const int32_t from_first = primitive.first_triangle - piece.first_triangle;
+      primitive.is_scenery |= from_first >= 0 && from_first < piece.triangle_count;
+    }
+  }
+}
+
 // Prepares the surface and fills what the getters answer with.
-void finish(MeshObject& object, TriangleMesh source, const focal_mesh_params& params,
-            const Execution& execution) {
+void finish(MeshObject& object, TriangleMesh source, std::vector<MeshPiece> pieces,
+            const focal_mesh_params& params, const Execution& execution) {
   Stopwatch watch;
   PrepareParams prepare_params;
   prepare_params.weld = params.weld != 0;
   prepare_params.drop_degenerate = params.drop_degenerate != 0;
   prepare_params.analysed = static_cast<AnalysedSurface>(params.surface);
   prepare_params.lenient = params.lenient != 0;
+  prepare_params.leave_out_scenery = params.keep_scenery == 0;
+  prepare_params.pieces = std::move(pieces);
   execution.begin_stage("repair", 0.5, 1);
   auto mesh = std::make_shared<const PreparedMesh>(prepare(std::move(source), prepare_params, execution));
   object.positions.resize(static_cast<size_t>(mesh->source.positions.size()));
@@ -150,33 +159,9 @@ void finish(MeshObject& object, TriangleMesh source, const focal_mesh_params& pa
   object.mean_edge_length = mesh->scale * mean_edge_length(mesh->surface);
   object.surface_area = mesh->scale * mesh->scale * surface_area(mesh->surface);
   object.warnings.insert(object.warnings.end(), mesh->warnings.begin(), mesh->warnings.end());
+  note_scenery(*mesh, prepare_params.pieces, object);
   object.mesh = std::move(mesh);
   object.repair_seconds = watch.lap();
-}
-
-focal_mesh_info info_of(const MeshObject& object) {
-  const PreparedMesh& mesh = *object.mesh;
-  const auto count = [](int64_t value) { return static_cast<uint64_t>(value); };
-  focal_mesh_info info{};
-  info.warning_count = static_cast<uint32_t>(object.warnings.size());
-  info.vertex_count = count(mesh.source.vertex_count());
-  info.triangle_count = count(mesh.source.triangle_count());
-  info.surface_vertex_count = count(mesh.surface.vertex_count());
-  info.surface_triangle_count = count(mesh.surface.triangle_count());
-  info.mean_edge_length = object.mean_edge_length;
-  info.surface_area = object.surface_area;
-  info.load_seconds = object.load_seconds;
-  info.repair_seconds = object.repair_seconds;
-  info.invalid_triangles = count(mesh.invalid_triangles);
-  info.degenerate_triangles = count(degenerate_triangles(mesh));
-  info.flipped_triangles = count(flipped_triangles(mesh));
-  info.nonmanifold_edges = count(mesh.topology->nonmanifold_edges);
-  info.nonmanifold_vertices = count(mesh.topology->nonmanifold_vertices);
-  info.boundary_loops = count(mesh.topology->boundary_loops);
-  info.component_count = count(mesh.components);
-  info.is_oriented = mesh.is_oriented;
-  info.is_wrapped = mesh.is_wrapped;
-  return info;
 }
 
 struct LoadedFile {
@@ -250,9 +235,11 @@ focal_mesh* load(const focal_context* context, const focal_mesh_params* given, R
   object->file = std::move(loaded.bytes);
   object->primitives = std::move(loaded.gltf.primitives);
   object->warnings = std::move(loaded.gltf.warnings);
+  for (std::string& name : loaded.gltf.hidden)
+    object->left_out.push_back({FOCAL_SCENERY_HIDDEN, std::move(name)});
   object->limits = how.limits;
   object->folder = std::move(loaded.folder);
-  finish(*object, std::move(loaded.gltf.mesh), params, execution);
+  finish(*object, std::move(loaded.gltf.mesh), std::move(loaded.gltf.pieces), params, execution);
   running->report_warnings(object->warnings);
   return publish(object);
 }
@@ -282,7 +269,7 @@ focal_status focal_mesh_create(const focal_context* context, const focal_mesh_de
     const TaskLease lease(how.task);
     const auto object = std::make_shared<MeshObject>();
     object->memory_budget = running->memory_budget;
-    finish(*object, mesh_of(description, how.lenient != 0), how, running->execution_with(lease.task()));
+    finish(*object, mesh_of(description, how.lenient != 0), {}, how, running->execution_with(lease.task()));
     running->report_warnings(object->warnings);
     *out_mesh = publish(object);
   });
@@ -312,17 +299,6 @@ focal_status focal_mesh_load_gltf_memory(const focal_context* context, const voi
 
 focal_status focal_mesh_destroy(focal_mesh* mesh) { return remove_handle(mesh, HandleType::mesh); }
 
-focal_status focal_mesh_info_init(focal_mesh_info* info, size_t struct_size) {
-  return guarded([&] { init_struct(info, struct_size); });
-}
-
-focal_status focal_mesh_get_info(const focal_mesh* mesh, focal_mesh_info* out_info) {
-  return guarded([&] {
-    const auto object = resolve<MeshObject>(mesh);
-    write_result(out_info, info_of(*object));
-  });
-}
-
 const float* focal_mesh_positions(const focal_mesh* mesh) {
   return guarded_value<const float*>(nullptr, [&] { return resolve<MeshObject>(mesh)->positions.data(); });
 }
@@ -332,11 +308,6 @@ const uint32_t* focal_mesh_triangles(const focal_mesh* mesh) {
   return guarded_value<const uint32_t*>(nullptr, [&] {
     return reinterpret_cast<const uint32_t*>(resolve<MeshObject>(mesh)->mesh->source.triangles.data());
   });
-}
-
-const char* focal_mesh_warning(const focal_mesh* mesh, uint32_t index) {
-  return guarded_value<const char*>(
-      nullptr, [&] { return text_at(resolve<MeshObject>(mesh)->warnings, index, "the mesh", "warnings"); });
 }
 
 focal_status focal_mesh_position_of(const focal_mesh* mesh, const focal_surface_point* point,

@@ -14,6 +14,14 @@
 
 namespace focal {
 
+// What of a scene is not analysed.
+struct LeftOut {
+  int32_t reason = 0;  // focal_scenery
+  std::string name;
+  int64_t triangle_count = 0;
+  bool is_whole_node = true;
+};
+
 struct MeshObject {
   using Handle = focal_mesh;
   static constexpr HandleType type = HandleType::mesh;
@@ -27,7 +35,8 @@ struct MeshObject {
   std::string name;                       // of the file it came from, for messages; or none
   std::vector<std::byte> file;            // the caller's glTF; empty when there is none or it was not kept
   std::vector<GltfPrimitive> primitives;  // of that file
-  GltfLimits limits;                      // it was read with
+  std::vector<LeftOut> left_out;
+  GltfLimits limits;  // it was read with
   std::optional<std::filesystem::path>
       folder;  // of the files beside a .gltf, when it was allowed to read them
 };

@@ -168,7 +168,7 @@ focal_status focal_skeleton_create(const focal_detection* detection, const focal
     if (by_hand) by_hand->symmetric |= how.symmetric != 0;
     object->rig = by_hand ? rig_by_template(*by_hand, found, execution, how.max_influences)
                           : transfer_rig(found, execution, how.symmetric != 0, how.max_influences);
-    // Before the joints are renamed: pairs of them, and those of the model, are told by their names.
+    // Before the joints are renamed: names identify pairs of joints, and those of the model.
     const RigMeasures measures = rig_measures(found, object->rig);
     if (how.rest_pose && object->rig.rest.empty())
       throw Error(Status::invalid_argument, "the template has no rest pose",

@@ -50,6 +50,34 @@ Json model_json(const focal_model* model, const std::string& path) {
             {"distance", focal_distance_name(params.distance)}}}};
 }
 
+const char* scenery_name(focal_scenery reason) {
+  switch (reason) {
+    case FOCAL_SCENERY_HIDDEN:
+      return "hidden";
+    case FOCAL_SCENERY_SHEET:
+      return "sheet";
+    case FOCAL_SCENERY_ENCLOSURE:
+      return "enclosure";
+    case FOCAL_SCENERY_APART:
+      return "apart";
+    default:
+      return "unknown";
+  }
+}
+
+Json left_out_json(const focal_mesh* mesh, uint32_t count) {
+  Json list = Json::array();
+  for (uint32_t i = 0; i < count; ++i) {
+    auto one = initialised(focal_left_out_init);
+    check(focal_mesh_get_left_out(mesh, i, &one));
+    list.push_back({{"name", one.name},
+                    {"reason", scenery_name(one.reason)},
+                    {"triangles", one.triangle_count},
+                    {"whole_node", one.is_whole_node != 0}});
+  }
+  return list;
+}
+
 Json mesh_json(const focal_mesh* mesh, const std::string& path) {
   const focal_mesh_info info = info_of(mesh);
   Json warnings = Json::array();
@@ -71,12 +99,14 @@ Json mesh_json(const focal_mesh* mesh, const std::string& path) {
           {"boundary_loops", info.boundary_loops},
           {"components", info.component_count},
           {"oriented", info.is_oriented != 0},
+          {"left_out", left_out_json(mesh, info.left_out_count)},
           {"seconds", {{"load", info.load_seconds}, {"repair", info.repair_seconds}}},
           {"warnings", warnings}};
 }
 
 std::string plain_text(const Json& value) {
   if (value.is_string()) return value.get<std::string>();
+  if (value.is_object()) return plain_text(value["name"]) + " (" + plain_text(value["reason"]) + ")";
   if (!value.is_array()) return value.dump();
   std::string list;
   for (const Json& entry : value) list += (list.empty() ? "" : ", ") + plain_text(entry);

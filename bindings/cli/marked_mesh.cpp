@@ -74,6 +74,7 @@ Mesh load_mesh(const focal_context* context, const std::string& path, const Mesh
   auto params = initialised(focal_mesh_params_init);
   params.lenient = how.lenient;
   params.surface = how.surface;
+  params.keep_scenery = how.keep_scenery;
   params.allow_external_files = 1;  // whoever names a .gltf means the files beside it too
   return owned<Mesh>(focal_mesh_load_gltf, context, path.c_str(), &params);
 }

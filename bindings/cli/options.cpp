@@ -31,6 +31,10 @@ void add_mesh_options(CLI::App& verb, MeshOptions& options) {
       "several parts",
       "auto|as-is|wrapped",
       {{"auto", FOCAL_SURFACE_AUTO}, {"as-is", FOCAL_SURFACE_AS_IS}, {"wrapped", FOCAL_SURFACE_WRAPPED}});
+  verb.add_flag(
+      "--keep-scenery", options.keep_scenery,
+      "Analyse all of the file: also hidden nodes, a ground, a backdrop, an enclosing shape and parts that "
+      "stand apart, which are left out otherwise");
 }
 
 void add_common_options(CLI::App& verb, CommonOptions& options) {

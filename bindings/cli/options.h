@@ -14,6 +14,7 @@ namespace focal_cli {
 struct MeshOptions {
   bool lenient = false;
   focal_surface surface = FOCAL_SURFACE_AUTO;
+  bool keep_scenery = false;
 };
 
 struct CommonOptions : MeshOptions {
@@ -31,7 +32,7 @@ struct CommonOptions : MeshOptions {
 void add_choice(CLI::App& verb, const std::string& name, int32_t& value, const std::string& help,
                 const std::string& words, const std::map<std::string, int32_t>& choices);
 
-// For the verbs that read meshes: --lenient, and with add_mesh_options also --surface.
+// For the verbs that read meshes: --lenient, and with add_mesh_options also --surface and --keep-scenery.
 void add_lenient_option(CLI::App& verb, MeshOptions& options);
 void add_mesh_options(CLI::App& verb, MeshOptions& options);
 void add_common_options(CLI::App& verb, CommonOptions& options);

@@ -203,7 +203,7 @@ void add_rig(CLI::App& app) {
           "characters")
       ->type_name("FILE.json");
   verb->add_flag("--symmetric", options->symmetric,
-                 "Bones of the left and right side, told by their names, get the same length");
+                 "Bones of the left and right side, which their names identify, get the same length");
   verb->add_option("--influences", options->influences, "joints that move one vertex, at most (default 4)")
       ->check(CLI::Range(1, 8));
   verb->add_flag("--rest-pose", options->rest_pose,

@@ -85,7 +85,7 @@ FOCAL_API const char* focal_status_name(focal_status status);
  * the next failing call of the same thread. Successful calls leave it as it is. */
 FOCAL_API const char* focal_last_error(void);
 
-/* The largest resident memory of this process so far, in bytes; 0 where the system does not tell. */
+/* The largest resident memory of this process so far, in bytes; 0 where the system does not report it. */
 FOCAL_API uint64_t focal_peak_memory_bytes(void);
 
 /* ---- Handles ---- */
@@ -131,7 +131,7 @@ typedef struct focal_context_params {
   void* parallel_for_user_data;
   /* 0: no budget. Calls on this context, and on what was made with it, fail with OUT_OF_MEMORY rather than let
    * the library hold more than this in the process, for all its contexts together. Not counted: threads' stacks, a GPU's
-   * memory, and what the library's own code takes (a few MB). docs/performance.md tells what detections take. */
+   * memory, and what the library's own code takes (a few MB). docs/performance.md lists what detections take. */
   uint64_t memory_budget_bytes;
 } focal_context_params;
 
@@ -217,7 +217,10 @@ typedef struct focal_mesh_params {
      instead of refusing the mesh (INVALID_MESH); for files too. Their numbers stay taken:
      focal_mesh_triangles gives 0 0 0 there, focal_mesh_positions 0 0 0 for a vertex at no place. Default 0 */
   int32_t lenient;
-  int32_t reserved;
+  /* 1: all of the mesh is analysed. Default 0: what focal_mesh_get_left_out lists is not: nodes of a file that
+     KHR_node_visibility hides, and separate parts that are plainly not the character, with a warning each. A mesh
+     of a single part, and what has a skin or hangs on a joint, is always kept. Was reserved */
+  int32_t keep_scenery;
   struct focal_task* task; /* cancels loading a large mesh; NULL: none */
 } focal_mesh_params;
 
@@ -243,7 +246,8 @@ FOCAL_API focal_status focal_mesh_desc_init(focal_mesh_desc* desc, size_t struct
  * params may be NULL. Errors: INVALID_MESH, MESH_TOO_SMALL; from files also FILE_NOT_FOUND, IO, INVALID_FILE,
  * UNSUPPORTED. A glTF scene (.gltf or .glb) becomes one mesh: all triangle primitives in node order, node
  * transforms applied, skins at bind pose; vertices and triangles are numbered through in that order. From
- * memory, external files are refused. */
+ * memory, external files are refused. Hidden nodes are not part of the mesh; other scenery is, but counts as what no
+ * triangle uses: no landmark lies there, and it gets no weights. */
 FOCAL_API focal_status focal_mesh_create(const focal_context* context, const focal_mesh_desc* desc,
                                          const focal_mesh_params* params, focal_mesh** out_mesh);
 FOCAL_API focal_status focal_mesh_load_gltf(const focal_context* context, const char* path,
@@ -273,9 +277,12 @@ typedef struct focal_mesh_info {
   uint64_t boundary_loops;  /* of the surface: connected curves of edges of one triangle: holes, open ends */
   uint64_t component_count; /* of the surface: its separate parts */
   /* 0: so much of the surface has only one side (as a Moebius strip) that its triangles cannot be turned to
-     face one way; detection then tells left from right by distances alone */
+     face one way; detection then distinguishes left from right by distances alone */
   int32_t is_oriented;
   int32_t is_wrapped; /* 1: one closed surface round the mesh is analysed, see focal_surface. Was reserved */
+  uint64_t left_out_triangles; /* scenery that is not analysed; of HIDDEN, none */
+  uint32_t left_out_count;     /* focal_mesh_get_left_out */
+  uint32_t reserved;
 } focal_mesh_info;
 
 FOCAL_API focal_status focal_mesh_info_init(focal_mesh_info* info, size_t struct_size);
@@ -286,6 +293,32 @@ FOCAL_API const uint32_t* focal_mesh_triangles(const focal_mesh* mesh); /* trian
 
 /* A plain sentence on what was found and done; index below warning_count. */
 FOCAL_API const char* focal_mesh_warning(const focal_mesh* mesh, uint32_t index);
+
+/* What of a scene is not analysed unless focal_mesh_params.keep_scenery is 1, and why. */
+typedef int32_t focal_scenery;
+enum {
+  FOCAL_SCENERY_HIDDEN = 0, /* KHR_node_visibility hides the node or one above it */
+  FOCAL_SCENERY_SHEET = 1,  /* flat, and it reaches beyond the character on all sides: a ground, a backdrop */
+  FOCAL_SCENERY_ENCLOSURE = 2, /* a convex shape that contains most of the character: a dome, a collider */
+  FOCAL_SCENERY_APART = 3 /* farther from the character than that is large; or one convex thing beside it */
+};
+
+typedef struct focal_left_out {
+  uint32_t struct_size;
+  focal_scenery reason;
+  const char* name;        /* "node 'Ground'", "node 3", "the mesh"; lives as long as the mesh */
+  uint64_t triangle_count; /* that are left out; 0 where it is HIDDEN */
+  /* 1: all of the node; files are written with this node and its mesh as they were, without a skin. 0: the
+     rest of the node is analysed, and in a written file the first joint moves what is left out */
+  int32_t is_whole_node;
+  uint32_t reserved;
+} focal_left_out;
+
+FOCAL_API focal_status focal_left_out_init(focal_left_out* left_out, size_t struct_size);
+
+/* index below focal_mesh_info.left_out_count; hidden nodes come first. Errors: INVALID_ARGUMENT. */
+FOCAL_API focal_status focal_mesh_get_left_out(const focal_mesh* mesh, uint32_t index,
+                                               focal_left_out* out_left_out);
 
 /* Writes a .glb of the closed surface round the mesh, to look at: what is analysed of a mesh that is_wrapped, and what
  * FOCAL_SURFACE_WRAPPED would analyse of another. It lies where the mesh lies, in its units. Runs on one thread. Errors:
@@ -309,7 +342,7 @@ enum {
   FOCAL_DESCRIPTOR_HKS = 1,        /* heat kernel signature */
   FOCAL_DESCRIPTOR_WKS = 2,        /* wave kernel signature */
   FOCAL_DESCRIPTOR_SPIN_IMAGE = 3, /* of the neighbourhood in space, like the next: poses change it */
-  FOCAL_DESCRIPTOR_UNIQUE_SHAPE_CONTEXT = 4 /* tells left from right */
+  FOCAL_DESCRIPTOR_UNIQUE_SHAPE_CONTEXT = 4 /* distinguishes left from right */
 };
 
 typedef int32_t focal_distance;
@@ -418,7 +451,7 @@ typedef struct focal_train_params {
   int32_t proxy_vertices;
   uint64_t seed; /* same seed, same bits. Default 0 */
   /* By leaving shapes out in turn, about three quarters of the time. Default 1; without it every confidence is
-     about a half, and nothing is told absent. Preset paper has none */
+     about a half, and no landmark is called absent. Preset paper has none */
   int32_t learn_confidence;
   /* Shapes learned of rigged characters in all, copies in other poses included, 2..10000; at least half as
      many again as there are characters. Default 16 */
@@ -481,7 +514,7 @@ typedef struct focal_detect_params {
   int32_t max_samples;   /* 1 or more. Default 1250 */
   int32_t peaks_per_landmark; /* candidates among which the constellation chooses, 1..64. Default 8 */
   double found_confidence;    /* below it: FOCAL_LANDMARK_UNCERTAIN. 0..1, default 0.5 */
-  /* Below it: FOCAL_LANDMARK_ABSENT; so is a landmark that the model has learned to tell missing, whatever
+  /* Below it: FOCAL_LANDMARK_ABSENT; so is a landmark that the model has learned to call missing, whatever
      its confidence. 0..found_confidence, default 0.05 */
   double absent_confidence;
   int32_t keep_votes; /* keep the vote maps in the detection. Default 1 */
@@ -499,7 +532,7 @@ FOCAL_API focal_status focal_detect_params_init(focal_detect_params* params, siz
 /* Finds the model's landmarks on a mesh. params and task may be NULL; runs in the model's context. Errors:
  * CANCELLED, NOT_CONVERGED. The detection keeps mesh and model alive, and a few MB that skeletons and maps
  * start from. Holes with a border of up to 1.5 sqrt(area) are closed for the analysis (preset default
- * only; a warning tells how many); landmarks still lie on the caller's triangles. */
+ * only; a warning says how many); landmarks still lie on the caller's triangles. */
 FOCAL_API focal_status focal_model_detect(const focal_model* model, const focal_mesh* mesh,
                                           const focal_detect_params* params, focal_task* task,
                                           focal_detection** out_detection);
@@ -508,7 +541,7 @@ FOCAL_API focal_status focal_detection_destroy(focal_detection* detection);
 /* The same on many meshes: each on a thread of its own, and on a stream of its own where a GPU is used, which gives
  * more of them a second than one call after another. out_detections: mesh_count handles, in the order of the
  * meshes, with the same bits as from focal_model_detect on the CPU; all of them or, when one fails, none: the message
- * tells its number. Errors: as above; INVALID_ARGUMENT also for fixed_points, which belong to one mesh. */
+ * gives its number. Errors: as above; INVALID_ARGUMENT also for fixed_points, which belong to one mesh. */
 FOCAL_API focal_status focal_model_detect_many(const focal_model* model, const focal_mesh* const* meshes,
                                                uint64_t mesh_count, const focal_detect_params* params,
                                                focal_task* task, focal_detection** out_detections);
@@ -715,7 +748,7 @@ typedef struct focal_skeleton_params {
      or A pose), moved there by its new joints; its vertices stay as they were. Default 0: in the pose of
      the mesh. */
   int32_t rest_pose;
-  /* 1: bones of the left and right side, told by their names, get the same length. Default 0. A template
+  /* 1: bones of the left and right side, which their names identify, get the same length. Default 0. A template
      may ask for it too. */
   int32_t symmetric;
   /* A skeleton of your own over the model's landmarks, as JSON text (docs/rigs.md describes it); weights
@@ -791,8 +824,8 @@ FOCAL_API focal_status focal_skeleton_weights(const focal_skeleton* skeleton, ui
 
 FOCAL_API const char* focal_skeleton_warning(const focal_skeleton* skeleton, uint32_t index);
 
-/* Writes the caller's own glTF, nothing lost, with the skeleton, a skin for every mesh it shows, and the
- * landmarks as focal_detection_write_gltf does. Same rules for the path, same errors. */
+/* Writes the caller's own glTF, nothing lost, with the skeleton, a skin for every mesh it shows (see
+ * focal_left_out), and the landmarks as focal_detection_write_gltf does. Same rules for the path, same errors. */
 FOCAL_API focal_status focal_skeleton_write_gltf(const focal_skeleton* skeleton, const char* path);
 
 #ifdef __cplusplus

@@ -5,6 +5,7 @@
 
 #include "design.h"
 #include "shop.h"
+#include "stock_bones.h"
 
 namespace creatures::game {
 
@@ -27,21 +28,14 @@ struct Style {
   int fingers, sides, vertices;
 };
 
-struct Places {
-  Vec3 hips, spine, chest, upper_chest, neck, head, crown;
-  Vec3 clavicle, shoulder, elbow, wrist, fingertip;
-  Vec3 hip, knee, ankle, toes, toe_tip;
+struct Places : HumanoidPlaces {
   Vec3 arm, forearm;  // directions
   Vec3 thumb, palm;   // directions at the hand: where the thumb is, where the palm looks
   double width, reach, sole;
   Vec3 skull, skull_radii;  // the ball that hats and hair sit on
 };
 
-struct Bones {
-  Skeleton all;
-  int hips, spine, chest, upper_chest, neck, head, shoulder, upper_arm, lower_arm, hand, upper_leg, lower_leg,
-      foot, toes;
-};
+using Bones = HumanoidBones;
 
 struct Plan {
   Style style;

@@ -141,55 +141,27 @@ Places place(const Style& s) {
   return p;
 }
 
-Bones skeleton(const Places& p) {
-  Bones b;
-  Skeleton& s = b.all;
-  b.hips = s.add("hips", -1, p.hips, p.spine);
-  b.spine = s.add("spine", b.hips, p.spine, p.chest);
-  b.chest = s.add("chest", b.spine, p.chest, p.upper_chest);
-  b.upper_chest = s.add("upperChest", b.chest, p.upper_chest, p.neck);
-  b.neck = s.add("neck", b.upper_chest, p.neck, p.head);
-  b.head = s.add("head", b.neck, p.head, p.crown);
-  b.shoulder = s.add_pair("Shoulder", b.upper_chest, p.clavicle, p.shoulder);
-  b.upper_arm = s.add_pair("UpperArm", b.shoulder, p.shoulder, p.elbow);
-  b.lower_arm = s.add_pair("LowerArm", b.upper_arm, p.elbow, p.wrist);
-  b.hand = s.add_pair("Hand", b.lower_arm, p.wrist, p.fingertip);
-  b.upper_leg = s.add_pair("UpperLeg", b.hips, p.hip, p.knee);
-  b.lower_leg = s.add_pair("LowerLeg", b.upper_leg, p.knee, p.ankle);
-  b.foot = s.add_pair("Foot", b.lower_leg, p.ankle, p.toes);
-  b.toes = s.add_pair("Toes", b.foot, p.toes, p.toe_tip);
-  return b;
-}
-
 }  // namespace
 
 Plan plan_humanoid(Random& random) {
   const Style style = random_style(random);
   const Places at = place(style);
-  return {style, at, skeleton(at)};
+  return {style, at, humanoid_skeleton(at)};
 }
 
 std::vector<Anchor> anchors(const Plan& plan) {
   const Places& p = plan.at;
-  const Vec3 front = Vec3::UnitZ(), back = -front, left = Vec3::UnitX(), down = -Vec3::UnitY();
+  const Vec3 front = Vec3::UnitZ(), back = -front, down = -Vec3::UnitY();
   const Vec3 low = p.skull - Vec3(0, 0.55 * p.skull_radii.y(), 0);
   const Vec3 hand = p.wrist + 0.25 * (p.fingertip - p.wrist);
-  return {{"crown", p.skull, Vec3::UnitY()},
-          {"nose", low + Vec3(0, 0.15 * p.skull_radii.y(), 0), front},
-          {"chin", low, front + 1.2 * down},
-          {"chest", p.upper_chest - Vec3(0, 0.02, 0), front},
-          {"navel", p.spine, front},
-          {"upperBack", p.upper_chest + Vec3(0, 0.03, 0), back},
-          {"lowerBack", p.spine - Vec3(0, 0.01, 0), back},
-          {"crotch", p.hips, down},
-          {"shoulder", p.shoulder, left + 0.6 * Vec3::UnitY(), true},
-          {"elbow", p.elbow, back, true},
-          {"handTip", hand, p.forearm, true},
-          {"thumbTip", hand, p.forearm + 1.5 * p.thumb, true},
-          {"hip", p.hip + Vec3(0, 0.01, 0), left, true},
-          {"knee", p.knee, front, true},
-          {"heel", p.ankle - Vec3(0, 0.5 * p.sole, 0), back, true},
-          {"toeTip", p.toes, p.toe_tip - p.toes + 0.003 * Vec3::UnitY(), true}};
+  return humanoid_anchors(
+      p,
+      {{"crown", p.skull, Vec3::UnitY()},
+       {"nose", low + Vec3(0, 0.15 * p.skull_radii.y(), 0), front},
+       {"chin", low, front + 1.2 * down}},
+      {{"handTip", hand, p.forearm, true}, {"thumbTip", hand, p.forearm + 1.5 * p.thumb, true}},
+      {{"heel", p.ankle - Vec3(0, 0.5 * p.sole, 0), back, true},
+       {"toeTip", p.toes, p.toe_tip - p.toes + 0.003 * Vec3::UnitY(), true}});
 }
 
 std::vector<Freedom> freedoms(const Plan& plan) {

@@ -4,6 +4,7 @@
 
 #include "design.h"
 #include "shop.h"
+#include "stock_bones.h"
 
 namespace creatures::game::beast {
 
@@ -27,20 +28,10 @@ struct Style {
   int sides = 8, vertices = 1000;
 };
 
-struct Places {
-  Vec3 hips, spine, chest, neck, head, nose;
-  Vec3 tail[4];
-  Vec3 shoulder, elbow, wrist, front_paw, front_toe;
-  Vec3 hip, knee, hock, hind_paw, hind_toe;
-  Vec3 ear, ear_tip, along;  // along: from head to nose
+struct Places : QuadrupedPlaces {
+  Vec3 along;  // from head to nose
 };
-
-struct Bones {
-  Skeleton all;
-  int hips, spine, chest, neck, head, tail[3], ear;
-  int front_upper, front_lower, front_foot, front_paw;
-  int hind_upper, hind_lower, hind_foot, hind_paw;
-};
+using Bones = QuadrupedBones;
 
 struct Plan {
   Style style;

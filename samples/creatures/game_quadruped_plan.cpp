@@ -234,35 +234,12 @@ Places place(const Style& s) {
   return p;
 }
 
-Bones skeleton(const Places& p) {
-  Bones b;
-  Skeleton& s = b.all;
-  b.hips = s.add("hips", -1, p.hips, p.spine);
-  b.spine = s.add("spine", b.hips, p.spine, p.chest);
-  b.chest = s.add("chest", b.spine, p.chest, p.neck);
-  b.neck = s.add("neck", b.chest, p.neck, p.head);
-  b.head = s.add("head", b.neck, p.head, p.nose);
-  for (int i = 0; i < 3; ++i)
-    b.tail[i] =
-        s.add("tail" + std::to_string(i + 1), i == 0 ? b.hips : b.tail[i - 1], p.tail[i], p.tail[i + 1]);
-  b.ear = s.add_pair("Ear", b.head, p.ear, p.ear_tip);
-  b.front_upper = s.add_pair("FrontUpperLeg", b.chest, p.shoulder, p.elbow);
-  b.front_lower = s.add_pair("FrontLowerLeg", b.front_upper, p.elbow, p.wrist);
-  b.front_foot = s.add_pair("FrontFoot", b.front_lower, p.wrist, p.front_paw);
-  b.front_paw = s.add_pair("FrontPaw", b.front_foot, p.front_paw, p.front_toe);
-  b.hind_upper = s.add_pair("HindUpperLeg", b.hips, p.hip, p.knee);
-  b.hind_lower = s.add_pair("HindLowerLeg", b.hind_upper, p.knee, p.hock);
-  b.hind_foot = s.add_pair("HindFoot", b.hind_lower, p.hock, p.hind_paw);
-  b.hind_paw = s.add_pair("HindPaw", b.hind_foot, p.hind_paw, p.hind_toe);
-  return b;
-}
-
 }  // namespace
 
 Plan plan_quadruped(Random& random) {
   const Style style = random_style(random);
   const Places at = place(style);
-  return {style, at, skeleton(at)};
+  return {style, at, quadruped_skeleton(at)};
 }
 
 std::vector<Anchor> anchors(const Plan& plan) {

@@ -1,5 +1,5 @@
 // People: 22 joints with VRM names, arms held away from the body.
-#include "design.h"
+#include "stock_bones.h"
 
 namespace creatures {
 namespace {
@@ -30,12 +30,11 @@ Build random_build(Random& random) {
   return b;
 }
 
-struct Places {
-  Vec3 hips, spine, chest, upper_chest, neck, head, crown;
-  Vec3 clavicle, shoulder, elbow, wrist, knuckles, fingertip;
-  Vec3 hip, knee, ankle, toes, toe_tip;
+struct Places : HumanoidPlaces {
+  Vec3 knuckles;
   Vec3 arm;  // direction from the shoulder to the hand
 };
+using Bones = HumanoidBones;
 
 Places place(const Build& b) {
   Places p;
@@ -61,31 +60,6 @@ Places place(const Build& b) {
   p.toes = p.ankle + Vec3(0.015, -0.05, 0.13 * b.feet);
   p.toe_tip = p.toes + Vec3(0.008, -0.005, 0.075 * b.feet);
   return p;
-}
-
-struct Bones {
-  Skeleton all;
-  int hips, spine, chest, upper_chest, neck, head, shoulder, upper_arm, lower_arm, hand, upper_leg, lower_leg,
-      foot, toes;
-};
-
-Bones skeleton(const Places& p) {
-  Bones b;
-  b.hips = b.all.add("hips", -1, p.hips, p.spine);
-  b.spine = b.all.add("spine", b.hips, p.spine, p.chest);
-  b.chest = b.all.add("chest", b.spine, p.chest, p.upper_chest);
-  b.upper_chest = b.all.add("upperChest", b.chest, p.upper_chest, p.neck);
-  b.neck = b.all.add("neck", b.upper_chest, p.neck, p.head);
-  b.head = b.all.add("head", b.neck, p.head, p.crown);
-  b.shoulder = b.all.add_pair("Shoulder", b.upper_chest, p.clavicle, p.shoulder);
-  b.upper_arm = b.all.add_pair("UpperArm", b.shoulder, p.shoulder, p.elbow);
-  b.lower_arm = b.all.add_pair("LowerArm", b.upper_arm, p.elbow, p.wrist);
-  b.hand = b.all.add_pair("Hand", b.lower_arm, p.wrist, p.fingertip);
-  b.upper_leg = b.all.add_pair("UpperLeg", b.hips, p.hip, p.knee);
-  b.lower_leg = b.all.add_pair("LowerLeg", b.upper_leg, p.knee, p.ankle);
-  b.foot = b.all.add_pair("Foot", b.lower_leg, p.ankle, p.toes);
-  b.toes = b.all.add_pair("Toes", b.foot, p.toes, p.toe_tip);
-  return b;
 }
 
 void add_torso(std::vector<Sweep>& flesh, const Build& b, const Places& p, const Bones& bones) {
@@ -288,24 +262,17 @@ void add_leg(std::vector<Sweep>& flesh, const Build& b, const Places& p, const B
 }
 
 std::vector<Anchor> anchors(const Build& b, const Places& p) {
-  const Vec3 front = Vec3::UnitZ(), back = -front, left = Vec3::UnitX(), down = -Vec3::UnitY();
+  const Vec3 front = Vec3::UnitZ(), back = -front, down = -Vec3::UnitY();
   const Vec3 toe_root = p.toes + Vec3(0, -0.01, 0);
-  return {{"crown", p.head + Vec3(0, 0.1, 0), Vec3::UnitY()},
-          {"nose", p.head + b.head * Vec3(0, 0.055, 0.05), front},
-          {"chin", p.head + b.head * Vec3(0, -0.005, 0.05), front + 0.5 * down},
-          {"chest", p.upper_chest - Vec3(0, 0.02, 0), front},
-          {"navel", p.spine, front},
-          {"upperBack", p.upper_chest + Vec3(0, 0.03, 0), back},
-          {"lowerBack", p.spine - Vec3(0, 0.01, 0), back},
-          {"crotch", p.hips, down},
-          {"shoulder", p.shoulder, left + 0.6 * Vec3::UnitY(), true},
-          {"elbow", p.elbow, back, true},
-          {"handTip", p.wrist + 0.05 * p.arm, p.arm, true},
-          {"thumbTip", p.wrist + 0.04 * p.arm + Vec3(0, 0, 0.052), 0.055 * p.arm + Vec3(0, 0, 0.078), true},
-          {"hip", p.hip + Vec3(0, 0.01, 0), left, true},
-          {"knee", p.knee, front, true},
-          {"heel", p.ankle + Vec3(0, -0.04, 0), back, true},
-          {"toeTip", toe_root, p.toe_tip - toe_root + 0.003 * Vec3::UnitY(), true}};
+  return humanoid_anchors(
+      p,
+      {{"crown", p.head + Vec3(0, 0.1, 0), Vec3::UnitY()},
+       {"nose", p.head + b.head * Vec3(0, 0.055, 0.05), front},
+       {"chin", p.head + b.head * Vec3(0, -0.005, 0.05), front + 0.5 * down}},
+      {{"handTip", p.wrist + 0.05 * p.arm, p.arm, true},
+       {"thumbTip", p.wrist + 0.04 * p.arm + Vec3(0, 0, 0.052), 0.055 * p.arm + Vec3(0, 0, 0.078), true}},
+      {{"heel", p.ankle + Vec3(0, -0.04, 0), back, true},
+       {"toeTip", toe_root, p.toe_tip - toe_root + 0.003 * Vec3::UnitY(), true}});
 }
 
 std::vector<Freedom> freedoms(const Places& p, const Bones& bones) {
@@ -339,7 +306,7 @@ std::vector<Freedom> freedoms(const Places& p, const Bones& bones) {
 Design design_humanoid(Random& random) {
   const Build build = random_build(random);
   const Places places = place(build);
-  const Bones bones = skeleton(places);
+  const Bones bones = humanoid_skeleton(places);
   std::vector<Sweep> flesh;
   add_torso(flesh, build, places, bones);
   add_leg(flesh, build, places, bones);

@@ -1,5 +1,5 @@
 // Four-legged animals with paws, ears and a tail, standing.
-#include "design.h"
+#include "stock_bones.h"
 
 namespace creatures {
 namespace {
@@ -25,13 +25,8 @@ Build random_build(Random& random) {
   return b;
 }
 
-struct Places {
-  Vec3 hips, spine, chest, neck, head, nose;
-  Vec3 tail[4];
-  Vec3 shoulder, elbow, wrist, front_paw, front_toe;
-  Vec3 hip, knee, hock, hind_paw, hind_toe;
-  Vec3 ear, ear_tip;
-};
+using Places = QuadrupedPlaces;
+using Bones = QuadrupedBones;
 
 Places place(const Build& b) {
   Places p;
@@ -59,36 +54,6 @@ Places place(const Build& b) {
   p.ear = p.head + b.head * Vec3(0.048, 0.055, -0.02);
   p.ear_tip = p.ear + b.ears * Vec3(0.035, 0.11, -0.012);
   return p;
-}
-
-struct Bones {
-  Skeleton all;
-  int hips, spine, chest, neck, head, tail[3], ear;
-  int front_upper, front_lower, front_foot, front_paw;
-  int hind_upper, hind_lower, hind_foot, hind_paw;
-};
-
-Bones skeleton(const Places& p) {
-  Bones b;
-  Skeleton& s = b.all;
-  b.hips = s.add("hips", -1, p.hips, p.spine);
-  b.spine = s.add("spine", b.hips, p.spine, p.chest);
-  b.chest = s.add("chest", b.spine, p.chest, p.neck);
-  b.neck = s.add("neck", b.chest, p.neck, p.head);
-  b.head = s.add("head", b.neck, p.head, p.nose);
-  for (int i = 0; i < 3; ++i)
-    b.tail[i] =
-        s.add("tail" + std::to_string(i + 1), i == 0 ? b.hips : b.tail[i - 1], p.tail[i], p.tail[i + 1]);
-  b.ear = s.add_pair("Ear", b.head, p.ear, p.ear_tip);
-  b.front_upper = s.add_pair("FrontUpperLeg", b.chest, p.shoulder, p.elbow);
-  b.front_lower = s.add_pair("FrontLowerLeg", b.front_upper, p.elbow, p.wrist);
-  b.front_foot = s.add_pair("FrontFoot", b.front_lower, p.wrist, p.front_paw);
-  b.front_paw = s.add_pair("FrontPaw", b.front_foot, p.front_paw, p.front_toe);
-  b.hind_upper = s.add_pair("HindUpperLeg", b.hips, p.hip, p.knee);
-  b.hind_lower = s.add_pair("HindLowerLeg", b.hind_upper, p.knee, p.hock);
-  b.hind_foot = s.add_pair("HindFoot", b.hind_lower, p.hock, p.hind_paw);
-  b.hind_paw = s.add_pair("HindPaw", b.hind_foot, p.hind_paw, p.hind_toe);
-  return b;
 }
 
 void add_torso(std::vector<Sweep>& flesh, const Build& b, const Places& p, const Bones& bones) {
@@ -288,7 +253,7 @@ std::vector<Freedom> freedoms(const Bones& b) {
 Design design_quadruped(Random& random) {
   const Build build = random_build(random);
   const Places places = place(build);
-  const Bones bones = skeleton(places);
+  const Bones bones = quadruped_skeleton(places);
   std::vector<Sweep> flesh;
   add_torso(flesh, build, places, bones);
   add_legs(flesh, build, places, bones);

@@ -1,4 +1,4 @@
-// How a surface bulges about a point, at several sizes: what tells front from back where distances along the surface do not.
+// How a surface bulges about a point, at several sizes: it distinguishes front from back where distances along the surface do not.
 #pragma once
 #include <array>
 

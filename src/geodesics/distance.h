@@ -69,7 +69,8 @@ double diameter_bound(const TriangleMesh& mesh, const SparseMatrix& L);
 // What a distance is made of.
 struct MeasuredSurface {
   const TriangleMesh& mesh;
-  std::span<const std::pair<int32_t, int32_t>> bridges;  // pairs of vertices that link separate parts
+  std::span<const std::pair<int32_t, int32_t>>
+      bridges;  // pairs of vertices that link separate parts; read by make alone
   const Operators& operators;
   bool to_the_letter = false;  // as preset `paper` has it (see HeatMethod)
 };

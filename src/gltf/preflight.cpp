@@ -206,7 +206,15 @@ void check_references(const json& root, const json& owner, const char* key, cons
   for (const json& value : *values) as_reference(value, key, place, count_of(root, "nodes"));
 }
 
+void check_visibility(const json& node, const Place& place) {
+  const json* visibility = extension(node, "KHR_node_visibility");
+  const json* visible = visibility ? member(*visibility, "visible") : nullptr;
+  if (visible && !visible->is_boolean())
+    fail_field(place, "extensions", "KHR_node_visibility has a visible that is not a boolean");
+}
+
 void check_node(const json& root, const json& node, const Place& place) {
+  check_visibility(node, place);
   reference(node, "mesh", place, count_of(root, "meshes"));
   reference(node, "skin", place, count_of(root, "skins"));
   check_references(root, node, "children", place);

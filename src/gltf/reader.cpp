@@ -64,6 +64,7 @@ class Plan {
 
   void add(const MeshPlacement& placement) {
     const json& primitives = list(root_, "meshes")[static_cast<size_t>(placement.mesh)]["primitives"];
+    const int64_t first = triangles_;
     for (size_t p = 0; p < primitives.size(); ++p) {
       const int64_t mode = checked_integer(primitives[p], "mode", kTriangles);
       const bool is_surface = mode >= kTriangles && member(primitives[p]["attributes"], "POSITION");
@@ -72,8 +73,11 @@ class Plan {
       else
         ++skipped_;
     }
+    pieces_.push_back({placement.name, static_cast<int32_t>(first), static_cast<int32_t>(triangles_ - first),
+                       placement.is_character});
   }
   const std::vector<Part>& parts() const { return parts_; }
+  std::vector<MeshPiece> take_pieces() { return std::move(pieces_); }
   int64_t vertices() const { return vertices_; }
   int64_t triangles() const { return triangles_; }
   int64_t skipped() const { return skipped_; }
@@ -106,6 +110,7 @@ class Plan {
   int64_t most_vertices_, most_triangles_;
   int64_t vertices_ = 0, triangles_ = 0, skipped_ = 0;
   std::vector<Part> parts_;
+  std::vector<MeshPiece> pieces_;
 };
 
 void read_positions(const json& root, GltfBuffers& buffers, const Part& part, bool lenient,
@@ -162,7 +167,10 @@ GltfMesh read(std::span<const std::byte> bytes, const GltfReadParams& params,
   GltfBuffers buffers(root, container, limits, std::move(folder));
   GltfMesh result;
   Plan plan(root, limits);
-  for (const MeshPlacement& placement : placed_meshes(root, buffers, result.warnings)) plan.add(placement);
+  ShownMeshes shown = placed_meshes(root, buffers, params.hidden_too, result.warnings);
+  for (const MeshPlacement& placement : shown.placements) plan.add(placement);
+  result.hidden = std::move(shown.hidden);
+  result.pieces = plan.take_pieces();
   if (plan.skipped() > 0)
     result.warnings.push_back(std::to_string(plan.skipped()) +
                               " primitives of points or lines, or without positions, were skipped");

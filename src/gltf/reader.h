@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "gltf/limits.h"
+#include "mesh/scenery.h"
 #include "mesh/triangle_mesh.h"
 
 namespace focal {
@@ -21,6 +22,8 @@ struct GltfReadParams {
   bool allow_external_files = false;
   // Positions that are not finite stay as they are, and an index out of range becomes -1, for prepare to leave out.
   bool lenient = false;
+  // Also read meshes that KHR_node_visibility hides.
+  bool hidden_too = false;
 };
 
 // Where a primitive of the file went in the merged mesh.
@@ -33,17 +36,21 @@ struct GltfPrimitive {
   // The node's place turns left into right: corners 1 and 2 of each triangle were swapped, so that triangles
   // stay counter-clockwise from outside.
   bool mirrored = false;
+  bool is_scenery = false;  // set by callers: add_skin leaves its mesh and node as they are
 };
 
 struct GltfMesh {
   TriangleMesh mesh;                      // primitives one after the other, nodes depth first in scene order
   std::vector<GltfPrimitive> primitives;  // in the same order
+  std::vector<MeshPiece> pieces;          // the triangles of each mesh, in the same order
+  std::vector<std::string> hidden;        // nodes whose meshes were not read: KHR_node_visibility hides them
   std::vector<std::string> warnings;      // plain sentences: what was skipped or assumed
 };
 
 // The scene is the file's default, else all scenes; if that shows no mesh, all nodes, then all meshes are
 // taken. A mesh shown several times comes once, as its first node shows it. A skinned mesh comes in its bind
-// pose, placed in the world by its topmost joint (glTF ignores the node's own transform there).
+// pose, placed in the world by its topmost joint (glTF ignores the node's own transform there). Nodes that KHR_node_visibility hides,
+// and what is below them, are left out, unless they are all there is.
 //
 // Throws file_not_found, io; invalid_file (truncated or malformed); unsupported (required extension, external
 // buffer, a limit); invalid_mesh (no triangles, NaN or infinite position, index out of range).

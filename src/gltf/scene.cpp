@@ -6,6 +6,7 @@
 
 #include "gltf/accessor.h"
 #include "gltf/fields.h"
+#include "gltf/text.h"
 
 namespace focal {
 namespace {
@@ -46,6 +47,11 @@ class Nodes {
   const json& operator[](int32_t node) const { return nodes_[static_cast<size_t>(node)]; }
   const Matrix4& world_transform(int32_t node) const { return world_[static_cast<size_t>(node)]; }
   int32_t depth(int32_t node) const { return depth_[static_cast<size_t>(node)]; }
+  // It or a node above it is not visible.
+  bool is_hidden(int32_t node) const { return hidden_[static_cast<size_t>(node)]; }
+  // It or a node above it is a joint of a skin.
+  bool hangs_on_joint(int32_t node) const { return on_joint_[static_cast<size_t>(node)]; }
+  std::string name(int32_t node) const;
   const std::vector<int32_t>& roots() const { return roots_; }
   // The nodes with a mesh at or below `start`: parents first, children in their order.
   std::vector<int32_t> with_mesh_below(const std::vector<int32_t>& start) const;
@@ -57,10 +63,21 @@ class Nodes {
   std::vector<int32_t> roots_;
   std::vector<int32_t> depth_;
   std::vector<Matrix4> world_;
+  std::vector<bool> hidden_, on_joint_;
 };
 
+bool hides(const json& node) {
+  const json* visibility = extension(node, "KHR_node_visibility");
+  const json* visible = visibility ? member(*visibility, "visible") : nullptr;
+  return visible && !visible->get<bool>();
+}
+
 Nodes::Nodes(const json& root, const std::map<int32_t, NodePose>& poses)
-    : nodes_(list(root, "nodes")), depth_(nodes_.size(), 0), world_(nodes_.size()) {
+    : nodes_(list(root, "nodes")),
+      depth_(nodes_.size(), 0),
+      world_(nodes_.size()),
+      hidden_(nodes_.size()),
+      on_joint_(nodes_.size()) {
   std::vector<bool> is_child(nodes_.size());
   for (const json& node : nodes_)
     for (const json& child : list(node, "children")) is_child[child.get<size_t>()] = true;
@@ -71,12 +88,23 @@ Nodes::Nodes(const json& root, const std::map<int32_t, NodePose>& poses)
     return posed == poses.end() ? local_transform((*this)[node]) : matrix_of(posed->second);
   };
   for (const int32_t node : roots_) world_[static_cast<size_t>(node)] = local(node);
+  for (size_t node = 0; node < nodes_.size(); ++node) hidden_[node] = hides(nodes_[node]);
+  for (const json& skin : list(root, "skins"))
+    for (const json& joint : skin["joints"]) on_joint_[joint.get<size_t>()] = true;
   for (const int32_t node : depth_first(roots_))
     for (const json& entry : list((*this)[node], "children")) {
       const auto child = entry.get<size_t>();
       world_[child] = world_transform(node) * local(static_cast<int32_t>(child));
       depth_[child] = depth(node) + 1;
+      if (is_hidden(node)) hidden_[child] = true;
+      if (hangs_on_joint(node)) on_joint_[child] = true;
     }
+}
+
+std::string Nodes::name(int32_t node) const {
+  const json* name = member((*this)[node], "name");
+  return name && name->is_string() ? "node '" + printable(name->get_ref<const std::string&>()) + "'"
+                                   : "node " + std::to_string(node);
 }
 
 std::vector<int32_t> Nodes::depth_first(const std::vector<int32_t>& start) const {
@@ -156,6 +184,24 @@ std::vector<int32_t> shown_nodes(const json& root, const Nodes& nodes, std::vect
   return found;
 }
 
+// Where all is hidden, all of it counts: a file of costumes that a program shows one at a time.
+void leave_out_hidden(const Nodes& nodes, std::vector<int32_t>& shown, std::vector<std::string>& hidden,
+                      std::vector<std::string>& warnings) {
+  const auto is_hidden = [&](int32_t node) { return nodes.is_hidden(node); };
+  if (std::none_of(shown.begin(), shown.end(), is_hidden)) return;
+  if (std::all_of(shown.begin(), shown.end(), is_hidden)) {
+    warnings.push_back("KHR_node_visibility hides every mesh; they were taken as if they were shown");
+    return;
+  }
+  for (const int32_t node : shown) {
+    if (!is_hidden(node)) continue;
+    hidden.push_back(nodes.name(node));
+    warnings.push_back("left out of the analysis: " + hidden.back() +
+                       ", which KHR_node_visibility hides; keep_scenery (--keep-scenery) keeps it");
+  }
+  std::erase_if(shown, is_hidden);
+}
+
 }  // namespace
 
 NodePose pose_of(const json& node) {
@@ -172,15 +218,17 @@ std::vector<Matrix4> world_transforms(const json& root, const std::map<int32_t, 
   return result;
 }
 
-std::vector<MeshPlacement> placed_meshes(const json& root, GltfBuffers& buffers,
-                                         std::vector<std::string>& warnings) {
+ShownMeshes placed_meshes(const json& root, GltfBuffers& buffers, bool hidden_too,
+                          std::vector<std::string>& warnings) {
   const Nodes nodes(root);
   const json& meshes = list(root, "meshes");
   std::vector<bool> seen(meshes.size());
-  std::vector<MeshPlacement> result;
+  ShownMeshes result;
   int64_t repeats = 0;
   std::map<int32_t, Matrix4> skins;  // a character of many parts shares one
-  for (const int32_t node : shown_nodes(root, nodes, warnings)) {
+  std::vector<int32_t> shown = shown_nodes(root, nodes, warnings);
+  if (!hidden_too) leave_out_hidden(nodes, shown, result.hidden, warnings);
+  for (const int32_t node : shown) {
     const auto mesh = nodes[node]["mesh"].get<int32_t>();
     if (seen[static_cast<size_t>(mesh)]) {
       ++repeats;
@@ -188,23 +236,24 @@ std::vector<MeshPlacement> placed_meshes(const json& root, GltfBuffers& buffers,
     }
     seen[static_cast<size_t>(mesh)] = true;
     const bool mirrored = nodes.world_transform(node).topLeftCorner<3, 3>().determinant() < 0;
-    const json* skin = member(nodes[node], "skin");
-    if (!skin) {
-      result.push_back({mesh, node, nodes.world_transform(node), mirrored});
-      continue;
+    MeshPlacement placement{nodes.name(node),          mesh, node, nodes.world_transform(node), mirrored,
+                            nodes.hangs_on_joint(node)};
+    if (const json* skin = member(nodes[node], "skin")) {
+      const auto index = skin->get<int32_t>();
+      auto found = skins.find(index);
+      if (found == skins.end())
+        found = skins.emplace(index, skin_transform(root, nodes, index, buffers, warnings)).first;
+      placement.world_transform = found->second, placement.is_character = true;
     }
-    const auto index = skin->get<int32_t>();
-    auto found = skins.find(index);
-    if (found == skins.end())
-      found = skins.emplace(index, skin_transform(root, nodes, index, buffers, warnings)).first;
-    result.push_back({mesh, node, found->second, mirrored});
+    result.placements.push_back(std::move(placement));
   }
   if (repeats > 0)
     warnings.push_back(std::to_string(repeats) +
                        " further instances of meshes were left out; each comes once");
-  if (result.empty() && !meshes.empty()) {
+  if (result.placements.empty() && !meshes.empty()) {
     warnings.push_back("no node shows a mesh; the meshes were taken as they stand");
-    for (size_t mesh = 0; mesh < meshes.size(); ++mesh) result.push_back({static_cast<int32_t>(mesh)});
+    for (size_t mesh = 0; mesh < meshes.size(); ++mesh)
+      result.placements.push_back({"mesh " + std::to_string(mesh), static_cast<int32_t>(mesh)});
   }
   return result;
 }

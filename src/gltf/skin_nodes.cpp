@@ -345,9 +345,10 @@ void SkinInserter::add() {
   add_joint_nodes();
   std::map<int32_t, const GltfPrimitive*> meshes;
   for (const GltfPrimitive& primitive : primitives_)
-    if (meshes.emplace(primitive.mesh, &primitive).second)
+    if (!primitive.is_scenery && meshes.emplace(primitive.mesh, &primitive).second)
       spare_other_instances(primitive.mesh, primitive.node);
   for (const GltfPrimitive& primitive : primitives_) {
+    if (primitive.is_scenery) continue;
     add_weights(primitive);
     if (primitive.mirrored) turn_triangles(primitive);
   }

@@ -52,7 +52,8 @@ struct GltfRig {
 // "focal_skeleton" with the joints below it, their places and rotations those of the bind matrices. Meshes that had a skin get
 // this one; a node that may not carry a skin (it has a place or a parent, or is animated) hands its mesh to a new scene root of its name, and
 // where it mirrors, the triangles of the file are turned: those of `primitives` are mirrored no longer. What an earlier call put in
-// is replaced.
+// is replaced. Primitives that are marked as scenery stay as they are; a mesh must be scenery as a whole. A vertex without weights is
+// moved by the first joint.
 // Everything else stays. Data goes into the BIN chunk, or into a data: URI in a .gltf. Throws what parse_gltf throws, and
 // invalid_argument (a rig of another mesh, more than 65,536 joints, not finite).
 std::vector<std::byte> add_skin(std::span<const std::byte> source, std::span<const GltfPrimitive> primitives,

@@ -18,7 +18,7 @@ struct JudgedPlacement {
   double error = 0;
   bool is_marked = true;   // false: the landmark is not on this mesh, so no place is right
   float map_residual = 0;  // of the mesh, see Placement
-  bool is_whole = true;    // false: the mesh was spoiled to learn from it, and is no measure of its category
+  bool is_whole = true;  // false: the mesh was corrupted to learn from it, and is no measure of its category
 };
 // Placements of one mesh stand together.
 Calibration calibrate(const std::vector<JudgedPlacement>& judged, int32_t landmarks);

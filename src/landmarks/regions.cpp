@@ -9,7 +9,7 @@ namespace focal {
 
 DistanceFields::DistanceFields(Proxy proxy, const Execution& execution) : proxy_(std::move(proxy)) {
   const PreparedMesh& coarse = *proxy_.coarse;
-  heat_ = HeatMethod(coarse.surface, make_operators(coarse.surface, coarse.bridges, true), execution);
+  heat_ = HeatMethod(coarse.surface, make_operators(coarse.surface, bridges_of(coarse), true), execution);
   places_ = coarse_place_of_vertices(proxy_, execution);
 }
 

@@ -54,9 +54,10 @@ EigenParams eigen_params(const AnalysisParams& params) {
   return eigen;
 }
 
-void make_surface_operators(SurfaceAnalysis& analysis, const Execution& execution) {
-  analysis.operators =
-      make_operators(analysis.surface(), analysis.proxy.coarse->bridges, !analysis.params.to_the_letter);
+using Bridges = std::vector<std::pair<int32_t, int32_t>>;
+
+void make_surface_operators(SurfaceAnalysis& analysis, const Bridges& bridges, const Execution& execution) {
+  analysis.operators = make_operators(analysis.surface(), bridges, !analysis.params.to_the_letter);
   execution.check_cancelled();
 }
 
@@ -66,7 +67,7 @@ bool make_backend_solvers(SurfaceAnalysis& analysis, const Execution& execution)
   if (!execution.backend || analysis.params.distance != 0 || n < fewest_vertices || n > most_vertices ||
       n < 3 * analysis.params.eigenpair_count)
     return false;
-  make_surface_operators(analysis, execution);
+  make_surface_operators(analysis, bridges_of(*analysis.proxy.coarse), execution);
   const auto metric = std::make_shared<BackendDistance>(analysis.proxy.coarse, analysis.operators,
                                                         analysis.params.to_the_letter, *execution.backend);
   analysis.metric = metric, analysis.on_backend = metric->surface();
@@ -124,10 +125,10 @@ SurfaceAnalysis analyse_surface(std::shared_ptr<const PreparedMesh> mesh, const 
 }
 
 void make_solvers(SurfaceAnalysis& analysis, const Execution& execution) {
-  make_surface_operators(analysis, execution);
+  const Bridges bridges = bridges_of(*analysis.proxy.coarse);
+  make_surface_operators(analysis, bridges, execution);
   analysis.metric = distance_kinds()[analysis.params.distance].make(
-      {analysis.surface(), analysis.proxy.coarse->bridges, analysis.operators, analysis.params.to_the_letter},
-      execution);
+      {analysis.surface(), bridges, analysis.operators, analysis.params.to_the_letter}, execution);
 }
 
 void describe_relief(SurfaceAnalysis& analysis, const Execution& execution) {

@@ -21,7 +21,7 @@ namespace {
 
 constexpr double disc_radius = 0.04;       // of sqrt(area), as in detection
 constexpr int32_t folds = 3;               // of the cross-fitted confidence
-constexpr int32_t spoiled_samples = 1500;  // of each spoiled copy; more help no more
+constexpr int32_t spoiled_samples = 1500;  // of each corrupted copy; more of them do not help
 // Of all shapes and copies, so that models of many shapes stay small; fewer where an orientation makes features say more.
 constexpr double most_samples = 120000, most_oriented_samples = 40000;
 constexpr int32_t most_judged = 24;  // shapes left out in turn to learn confidence from
@@ -41,7 +41,7 @@ struct Lesson {
   LearnedShape learned;
   Matrix3 frame = Matrix3::Identity();  // in which it stands, see features_of
 };
-// One training shape, whole and spoiled.
+// One training shape, whole and corrupted.
 struct Lessons {
   Lesson whole;
   std::vector<Lesson> spoiled;
@@ -248,7 +248,7 @@ void judge_shape(const LandmarkModel& model, const Lesson& lesson, int32_t id, b
   }
 }
 
-// The same shape as a scanner spoils it (copy 0), or with a part missing: what such meshes look like has to be learned too.
+// The same shape with the defects of a scan (copy 0), or with a part missing: models learn what such meshes look like too.
 std::optional<MarkedShape> spoiled(const MarkedShape& shape, int32_t copy, Random random,
                                    const Execution& execution) {
   constexpr int32_t smallest = 100;  // vertices that make a shape still, when some have gone
@@ -282,7 +282,7 @@ std::optional<MarkedShape> spoiled(const MarkedShape& shape, int32_t copy, Rando
   return result;
 }
 
-// Places the landmarks of every shape, whole and spoiled, by a model that has not seen it, and learns from the outcome
+// Places the landmarks of every shape, whole and corrupted, by a model that has not seen it, and learns from the outcome
 // how far to trust.
 Calibration cross_fit(const LandmarkModel& model, const std::vector<Lessons>& shapes,
                       const Execution& execution) {

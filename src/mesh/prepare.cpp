@@ -108,6 +108,7 @@ std::vector<int32_t> kept_triangles(const MatrixX3i& corners, int32_t vertex_cou
 
 // Fills surface and the four maps; first[v] is the source vertex that stands for v.
 void build_surface(PreparedMesh& mesh, const std::vector<int32_t>& first, const MatrixX3i& corners) {
+  mesh.source_vertex.clear();
   mesh.surface_vertex.assign(mesh.source.vertex_count(), -1);
   mesh.surface_triangle.assign(mesh.source.triangle_count(), -1);
   std::vector<char> used(mesh.source.vertex_count(), 0);
@@ -176,17 +177,35 @@ void warn_of_topology(PreparedMesh& mesh) {
         "mistaken");
 }
 
-void warn(PreparedMesh& mesh) {
+void warn(PreparedMesh& mesh, std::span<const MeshPiece> pieces) {
   const auto say = [&](const std::string& text) { mesh.warnings.push_back(text); };
   if (mesh.invalid_triangles > 0)
     say(std::to_string(mesh.invalid_triangles) +
         " triangles with a NaN or infinite corner, or an index out of range, are left out");
   if (const auto dropped = degenerate_triangles(mesh))
     say(std::to_string(dropped) + " degenerate or repeated triangles are ignored");
+  for (const Scenery& scenery : mesh.scenery)
+    say("left out of the analysis: " + describe(scenery, pieces) +
+        "; keep_scenery (--keep-scenery) keeps it");
   if (mesh.components > 1)
     say("the surface has " + std::to_string(mesh.components) + " separate parts; they are analysed as one" +
         (mesh.is_wrapped ? ", by a closed surface round them all" : ", bridged at the nearest vertices"));
   if (mesh.topology) warn_of_topology(mesh);
+}
+
+// Takes scenery out of the triangles that are kept; the surface is made anew of the others.
+void leave_out_scenery(const PrepareParams& params, const std::vector<int32_t>& first,
+                       const MatrixX3i& corners, PreparedMesh& mesh, Components& components) {
+  FoundScenery found = find_scenery(mesh.surface, components, mesh.source_triangle, params.pieces);
+  if (found.parts.empty()) return;
+  mesh.scenery = std::move(found.parts);
+  std::vector<int32_t> kept;
+  for (size_t t = 0; t < found.triangles.size(); ++t)
+    if (!found.triangles[t]) kept.push_back(mesh.source_triangle[t]);
+  mesh.scenery_triangles = static_cast<int64_t>(mesh.source_triangle.size() - kept.size());
+  mesh.source_triangle = std::move(kept);
+  build_surface(mesh, first, corners);
+  components = components_of(mesh.surface);
 }
 
 // Whether the triangles are no body by themselves: neighbours on the body do not share edges.
@@ -218,11 +237,24 @@ PreparedMesh wrapped(const PreparedMesh& mesh, const Execution& execution) {
 }
 
 int64_t degenerate_triangles(const PreparedMesh& mesh) {
-  return mesh.source.triangle_count() - mesh.surface.triangle_count() - mesh.invalid_triangles;
+  return mesh.source.triangle_count() - mesh.surface.triangle_count() - mesh.invalid_triangles -
+         mesh.scenery_triangles;
 }
 
 int64_t flipped_triangles(const PreparedMesh& mesh) {
   return std::count(mesh.flipped.begin(), mesh.flipped.end(), 1);
+}
+
+std::vector<std::pair<int32_t, int32_t>> bridges_of(const PreparedMesh& mesh) {
+  return mesh.components > 1 ? bridge_pairs(mesh.surface, components_of(mesh.surface))
+                             : std::vector<std::pair<int32_t, int32_t>>{};
+}
+
+MatrixX3 analysed_positions(const PreparedMesh& mesh) {
+  MatrixX3 result(static_cast<Eigen::Index>(mesh.source_vertex.size()), 3);
+  for (size_t v = 0; v < mesh.source_vertex.size(); ++v)
+    result.row(static_cast<Eigen::Index>(v)) = mesh.source.positions.row(mesh.source_vertex[v]);
+  return result;
 }
 
 PreparedMesh prepare(TriangleMesh source, const PrepareParams& params, const Execution& execution) {
@@ -242,23 +274,23 @@ PreparedMesh prepare(TriangleMesh source, const PrepareParams& params, const Exe
       kept_triangles(corners, mesh.source.vertex_count(), params.drop_degenerate, invalid.triangle);
   execution.check_cancelled();
   build_surface(mesh, first, corners);
-  forget(invalid.vertex, mesh);
   if (mesh.surface.vertex_count() < smallest_surface)
     throw Error(Status::mesh_too_small,
                 "the surface has " + std::to_string(mesh.surface.vertex_count()) + " different vertices",
                 "at least " + std::to_string(smallest_surface) + " are needed");
   execution.check_cancelled();
-  normalise(mesh);
-  const Components components = components_of(mesh.surface);
+  Components components = components_of(mesh.surface);
+  if (params.leave_out_scenery) leave_out_scenery(params, first, corners, mesh, components);
+  forget(invalid.vertex, mesh);
   mesh.components = components.count;
+  execution.check_cancelled();
+  normalise(mesh);
   execution.check_cancelled();
   if (params.repair_orientation) inspect(mesh);
   mesh.is_wrapped = params.analysed == AnalysedSurface::wrapped ||
                     (params.analysed == AnalysedSurface::automatic && needs_wrap(mesh));
   execution.check_cancelled();
-  mesh.bridges = bridge_pairs(mesh.surface, components);
-  execution.check_cancelled();
-  warn(mesh);
+  warn(mesh, params.pieces);
   return mesh;
 }
 

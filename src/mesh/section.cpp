@@ -93,7 +93,7 @@ Vector3 section_centre(const RayCaster& surface, const Vector3& point, const Vec
   const Vector3 inward = -outward;
   const MatrixX3& positions = surface.mesh().positions;
   const double size = (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).norm();
-  // No wider than the way through the body, which vertices far apart do not tell.
+  // No wider than the way through the body, which vertices far apart do not show.
   const double skin = 1e-3 * size;
   const double through = surface.first_hit(point + skin * inward, inward, size).distance;
   const double radius = inscribed_radius(surface.mesh(), point, inward, through / 2);

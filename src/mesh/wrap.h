@@ -12,9 +12,9 @@ struct WrapParams {
 };
 
 struct WrappedMesh {
-  TriangleMesh mesh;  // one closed manifold part, counter-clockwise from outside, in the units of the input
-  double cell = 0;  // length of a grid cell, same unit: what is thinner or closer together is not told apart
-  int32_t bridged = 0;   // floating parts joined to the nearest other one
+  TriangleMesh mesh;    // one closed manifold part, counter-clockwise from outside, in the units of the input
+  double cell = 0;      // length of a grid cell, same unit: what is thinner or closer together merges
+  int32_t bridged = 0;  // floating parts joined to the nearest other one
   int32_t left_out = 0;  // small parts far from everything else
 };
 

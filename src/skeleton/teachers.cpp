@@ -245,7 +245,7 @@ void check_skin(const std::vector<RiggedMesh>& characters, size_t index, Names& 
     const Vector3 place = character.rig.joints[j].bind.topRightCorner<3, 1>();
     low = low.cwiseMin(place), high = high.cwiseMax(place), ++joints;
   }
-  const MatrixX3& positions = character.mesh->source.positions;
+  const MatrixX3 positions = analysed_positions(*character.mesh);
   const double size = (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).maxCoeff();
   if (joints > 1 && (high - low).maxCoeff() < one_place * size)
     say(": all of its " + std::to_string(joints) +

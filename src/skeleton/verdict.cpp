@@ -278,7 +278,7 @@ RigMeasures rig_measures(const Detection& detection, const CharacterRig& rig) {
   const auto guessed = learned ? guessed_joints(detection).size() : static_cast<size_t>(unsure);
   result.absent_share = share(static_cast<double>(guessed), static_cast<double>(joints.size()));
   const auto teachers = learned ? teachers_of(detection) : std::vector<const AtlasShape*>{};
-  const Figure figure = figure_of(rig, detection.mesh->source.positions);
+  const Figure figure = figure_of(rig, analysed_positions(*detection.mesh));
   const std::vector<Figure> taught = teachers_figures(teachers, figure);
   measure_bones(figure, taught, result);
   measure_sides(figure, taught, result);

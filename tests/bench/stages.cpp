@@ -73,7 +73,7 @@ Values::Values(Subject of, std::shared_ptr<const LandmarkModel> known)
       model(known ? known : trained(subject, full_resolution(), 0)),
       quick_model(known ? known : trained(subject, TrainParams::from_preset(Preset::default_preset), 0)) {
   mesh = std::make_shared<PreparedMesh>(prepare(subject.test));
-  operators = make_operators(mesh->surface, mesh->bridges);
+  operators = make_operators(mesh->surface, bridges_of(*mesh));
   heat = HeatMethod(mesh->surface, operators);
   factor = SparseCholesky(shifted_laplacian(operators));
   basis = focal_eigenpairs(operators, model->params.eigenpair_count, {});
@@ -90,7 +90,7 @@ std::vector<Stage> focal_stages() {
   using E = const Execution&;
   return {
       {"prepare", [](V v, E) { prepare(v.subject.test); }, false},
-      {"operators", [](V v, E) { make_operators(v.mesh->surface, v.mesh->bridges); }, false},
+      {"operators", [](V v, E) { make_operators(v.mesh->surface, bridges_of(*v.mesh)); }, false},
       {"factor", [](V v, E) { SparseCholesky(shifted_laplacian(v.operators)); }, false},
       {"solve_32_double", [](V v, E) { solve_one_block<double>(v.factor); }, false},
       {"solve_32_float", [](V v, E) { solve_one_block<float>(v.factor); }, false},

@@ -159,7 +159,7 @@ StockDetection stock_detect(const LandmarkModel& model, TriangleMesh source, int
   StockDetection result;
   Stopwatch whole, watch;
   const PreparedMesh mesh = prepare(std::move(source));
-  const Operators operators = make_operators(mesh.surface, mesh.bridges);
+  const Operators operators = make_operators(mesh.surface, bridges_of(mesh));
   watch.lap();
   const Eigenbasis basis = stock_eigenpairs(operators, model.params.eigenpair_count);
   result.eigenpairs = watch.lap();

@@ -234,18 +234,14 @@ static void check_ranges(void) {
   MESH(allow_external_files, -1, 0, 1, 2);
   MESH(keep_source_file, -1, 0, 1, 2);
   MESH(lenient, -1, 0, 1, 2);
+  MESH(keep_scenery, -1, 0, 1, 2);
   MESH(max_vertices, 0, 1, INT32_MAX, INT32_MAX + 1.0);
   MESH(max_triangles, 0, 1, INT32_MAX, INT32_MAX + 1.0);
   MESH(max_nodes, 0, 1, INT32_MAX, INT32_MAX + 1.0);
   MESH(max_json_bytes, 0, 1, 0x1p40, 0x1p40 + 1);
   MESH(max_file_bytes, 0, 1, 0x1p40, 0x1p40 + 1);
   MESH(pose_time, -0.5, 0, 1e9, 2e9);
-  focal_mesh_params params;
   focal_mesh* mesh = NULL;
-  CHECK_OK(focal_mesh_params_init(&params, sizeof params));
-  params.reserved = 1;
-  CHECK_REFUSED(focal_mesh_load_gltf_memory(context, "", 0, &params, &mesh), FOCAL_ERROR_UNSUPPORTED,
-                "reserved");
   CHECK_REFUSED(focal_mesh_load_gltf_memory(context, "x", UINT64_MAX, NULL, &mesh),
                 FOCAL_ERROR_INVALID_ARGUMENT, "size is 18446744073709551615");
   CHECK_REFUSED(focal_mesh_load_gltf_memory(context, "x", UINT64_C(1) << 63, NULL, &mesh),

@@ -84,11 +84,27 @@ TEST_CASE("doctor, info and convert: keys") {
   const ScratchFolder scratch;
   write_tiny_set(scratch, 1, 0);
   const json info = focal_json("info " + (scratch / "egg0.glb"));
-  CHECK(keys_of(info) == Keys{"kind", "file", "vertices", "triangles", "surface_vertices",
-                              "surface_triangles", "analysed", "mean_edge_length", "surface_area",
-                              "invalid_triangles", "degenerate_triangles", "flipped_triangles",
-                              "nonmanifold_edges", "nonmanifold_vertices", "boundary_loops", "components",
-                              "oriented", "seconds", "warnings"});
+  CHECK(keys_of(info) == Keys{"kind",
+                              "file",
+                              "vertices",
+                              "triangles",
+                              "surface_vertices",
+                              "surface_triangles",
+                              "analysed",
+                              "mean_edge_length",
+                              "surface_area",
+                              "invalid_triangles",
+                              "degenerate_triangles",
+                              "flipped_triangles",
+                              "nonmanifold_edges",
+                              "nonmanifold_vertices",
+                              "boundary_loops",
+                              "components",
+                              "oriented",
+                              "left_out",
+                              "seconds",
+                              "warnings"});
+  CHECK(info["left_out"].empty());
   CHECK(info["vertices"] == 2 + 19 * 26);
   CHECK(info["triangles"] == 2 * 19 * 26);
   const json converted =

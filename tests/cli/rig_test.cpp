@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 
@@ -48,7 +49,100 @@ std::string edited(const ScratchFolder& scratch, const std::string& file, const 
   return scratch.write(name, text);
 }
 
+// A .glb of the scratch folder with what change(document) adds, and with a mesh of a ground, six by six.
+template <class Change>
+std::string with_ground(const ScratchFolder& scratch, const std::string& file, const std::string& name,
+                        Change&& change) {
+  const std::string glb = focal_cli::read_text_file(file);
+  const auto u32 = [&](size_t at) {
+    uint32_t value;
+    std::memcpy(&value, glb.data() + at, 4);
+    return value;
+  };
+  json root = json::parse(glb.substr(20, u32(12)));
+  const auto add = [&](const char* list, json element) {
+    root[list].push_back(std::move(element));
+    return root[list].size() - 1;
+  };
+  const size_t buffer =
+      add("buffers", {{"byteLength", 60},
+                      {"uri",
+                       "data:application/octet-stream;base64,"
+                       "AABAwG8SA7sAAEDAAABAwG8SA7sAAEBAAABAQG8SA7sAAEDAAABAQG8SA7sAAEBAAAABAAIAAQADAAIA"}});
+  const size_t view = add("bufferViews", {{"buffer", buffer}, {"byteLength", 48}});
+  const size_t indices = add("bufferViews", {{"buffer", buffer}, {"byteOffset", 48}, {"byteLength", 12}});
+  const size_t positions = add("accessors", {{"bufferView", view},
+                                             {"componentType", 5126},
+                                             {"type", "VEC3"},
+                                             {"count", 4},
+                                             {"min", {-3, -0.002F, -3}},
+                                             {"max", {3, -0.002F, 3}}});
+  const size_t corners =
+      add("accessors", {{"bufferView", indices}, {"componentType", 5123}, {"type", "SCALAR"}, {"count", 6}});
+  const size_t mesh =
+      add("meshes",
+          {{"primitives", json::array({{{"attributes", {{"POSITION", positions}}}, {"indices", corners}}})}});
+  root["scenes"][0]["nodes"].push_back(add("nodes", {{"name", "Ground"}, {"mesh", mesh}}));
+  change(root);
+  std::string text = root.dump();
+  text.resize((text.size() + 3) / 4 * 4, ' ');
+  const std::string rest = glb.substr(20 + u32(12));
+  const auto bytes_of = [](size_t number) {
+    const auto value = static_cast<uint32_t>(number);
+    return std::string(reinterpret_cast<const char*>(&value), 4);
+  };
+  return scratch.write(name, glb.substr(0, 8) + bytes_of(20 + text.size() + rest.size()) +
+                                 bytes_of(text.size()) + glb.substr(16, 4) + text + rest);
+}
+
+json document_of(const std::string& file) {
+  const std::string glb = focal_cli::read_text_file(file);
+  uint32_t size;
+  std::memcpy(&size, glb.data() + 12, 4);
+  return json::parse(glb.substr(20, size));
+}
+
 }  // namespace
+
+TEST_CASE("rig: scenery is reported, changes nothing and stays as it was") {
+  const ScratchFolder scratch;
+  const auto rigged = [&](const std::string& mesh, const std::string& name) {
+    return focal_json("rig " + humanoids().model() + " " + mesh + " -o " + (scratch / name) +
+                      " --keep-failed");
+  };
+  const json alone = rigged(humanoids().mesh(), "alone.glb");
+  for (const bool hidden : {false, true}) {
+    const std::string scene = with_ground(scratch, humanoids().mesh(), "scene.glb", [&](json& root) {
+      if (!hidden) return;
+      root["nodes"].back()["extensions"] = {{"KHR_node_visibility", {{"visible", false}}}};
+      root["extensionsUsed"] = root["extensionsRequired"] = {"KHR_node_visibility"};
+    });
+    const json info = focal_json("info " + scene);
+    REQUIRE(info["left_out"].size() == 1);
+    CHECK(info["left_out"][0]["name"] == "node 'Ground'");
+    CHECK(info["left_out"][0]["reason"] == (hidden ? "hidden" : "sheet"));
+    CHECK(info["left_out"][0]["whole_node"] == true);
+    const json report = rigged(scene, "rigged.glb");
+    CHECK(report["joints"] == alone["joints"]);
+    CHECK(report["quality"] == alone["quality"]);
+    const json before = document_of(scene), after = document_of(scratch / "rigged.glb");
+    const size_t ground = before["nodes"].size() - 1;
+    CHECK(after["nodes"][ground] == before["nodes"][ground]);
+    CHECK(after["meshes"].back()["primitives"] == before["meshes"].back()["primitives"]);
+    CHECK(after.value("extensionsRequired", json()) == before.value("extensionsRequired", json()));
+  }
+  const std::string scene = with_ground(scratch, humanoids().mesh(), "scene.glb", [](const json&) {});
+  CHECK(focal_json("info --keep-scenery " + scene)["left_out"].empty());
+  CHECK(focal_json("info --keep-scenery " + scene)["components"] == 2);
+}
+
+TEST_CASE("train: a teacher's scenery does not teach") {
+  const ScratchFolder scratch;
+  const std::string scene = with_ground(scratch, humanoids().teacher(), "scene.glb", [](const json&) {});
+  focal_json("train --rigs " + scene + " -o " + (scratch / "scene.focal") +
+             " --eigenpairs 60 --trees 6 --proxy 1000");
+  CHECK(focal_cli::read_text_file(scratch / "scene.focal") == focal_cli::read_text_file(humanoids().model()));
+}
 
 TEST_CASE("rig: a verdict in JSON and in words") {
   const ScratchFolder scratch;

@@ -5,31 +5,15 @@
 #include <cstdio>
 
 #include "compute/backend_under_test.h"
-#include "creatures/character.h"
 #include "landmarks/detect.h"
 #include "landmarks/model_parts.h"
 #include "landmarks/train.h"
+#include "sample_humanoid.h"
 
 using namespace focal;
 using namespace focal_test;
 
 namespace {
-
-TriangleMesh posed_mesh(const creatures::Character& character) {
-  TriangleMesh mesh;
-  mesh.positions.resize(static_cast<Eigen::Index>(character.posed.size()), 3);
-  for (size_t v = 0; v < character.posed.size(); ++v)
-    mesh.positions.row(static_cast<Eigen::Index>(v)) = character.posed[v];
-  mesh.triangles.resize(static_cast<Eigen::Index>(character.rest.triangles.size()), 3);
-  for (size_t t = 0; t < character.rest.triangles.size(); ++t)
-    for (int i = 0; i < 3; ++i)
-      mesh.triangles(static_cast<Eigen::Index>(t), i) = character.rest.triangles[t][i];
-  return mesh;
-}
-
-creatures::Character humanoid(uint64_t seed) {
-  return creatures::make_character(creatures::families()[0], "humanoid", seed);
-}
 
 // Preset paper analyses a surface as it is, so it is given small ones.
 std::shared_ptr<const PreparedMesh> coarse(const std::shared_ptr<const PreparedMesh>& mesh) {
@@ -46,10 +30,7 @@ std::shared_ptr<const LandmarkModel> trained(Preset preset) {
   TrainingSet set;
   for (const auto& mark : humanoid(100).landmarks) set.landmark_names.push_back(mark.name);
   for (uint64_t seed = 100; seed < (sanitized ? 104 : 112); ++seed) {
-    const auto character = humanoid(seed);
-    MarkedShape shape{std::make_shared<PreparedMesh>(prepare(posed_mesh(character))), {}};
-    for (const auto& mark : character.landmarks)
-      shape.marks.push_back(to_surface(*shape.mesh, {mark.triangle, mark.barycentric}));
+    MarkedShape shape = marked(humanoid(seed));
     if (preset == Preset::paper) shape = coarse(shape);
     set.shapes.push_back(std::move(shape));
   }

@@ -38,7 +38,7 @@ struct Subject {
 
 Subject subject(const char* name, TriangleMesh mesh) {
   auto prepared = std::make_shared<const PreparedMesh>(prepare(std::move(mesh)));
-  Operators operators = make_operators(prepared->surface, prepared->bridges, true);
+  Operators operators = make_operators(prepared->surface, bridges_of(*prepared), true);
   return {name, std::move(prepared), std::move(operators)};
 }
 

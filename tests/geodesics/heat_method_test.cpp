@@ -121,7 +121,7 @@ TEST_CASE("bridged parts are a finite distance apart") {
   const PreparedMesh mesh = prepare(both);
   const std::vector<int32_t> sources = {1};  // (-1, 0, 0), far from the other part
   const RowMatrixf d =
-      HeatMethod(mesh.surface, make_operators(mesh.surface, mesh.bridges)).distances(sources, {});
+      HeatMethod(mesh.surface, make_operators(mesh.surface, bridges_of(mesh))).distances(sources, {});
   CHECK(d.allFinite());
   CHECK(d.row(0).tail(n).minCoeff() > d.row(0).head(n).mean());  // the other part lies beyond
 }

@@ -7,12 +7,13 @@
 
 #include "base/multiversion.h"
 #include "base/random.h"
-#include "creatures/character.h"
 #include "landmarks/detect.h"
 #include "landmarks/model_parts.h"
 #include "landmarks/train.h"
+#include "sample_humanoid.h"
 
 using namespace focal;
+using namespace focal_test;
 
 namespace {
 
@@ -23,25 +24,6 @@ constexpr bool sanitized = false;
 #endif
 
 constexpr int32_t proxy_vertices = 900;
-
-creatures::Character humanoid(uint64_t seed) {
-  return creatures::make_character(creatures::families()[0], "humanoid", seed);
-}
-
-MarkedShape marked(const creatures::Character& character) {
-  TriangleMesh mesh;
-  mesh.positions.resize(static_cast<Eigen::Index>(character.posed.size()), 3);
-  for (size_t v = 0; v < character.posed.size(); ++v)
-    mesh.positions.row(static_cast<Eigen::Index>(v)) = character.posed[v];
-  mesh.triangles.resize(static_cast<Eigen::Index>(character.rest.triangles.size()), 3);
-  for (size_t t = 0; t < character.rest.triangles.size(); ++t)
-    for (int i = 0; i < 3; ++i)
-      mesh.triangles(static_cast<Eigen::Index>(t), i) = character.rest.triangles[t][i];
-  MarkedShape shape{std::make_shared<PreparedMesh>(prepare(std::move(mesh))), {}};
-  for (const auto& mark : character.landmarks)
-    shape.marks.push_back(to_surface(*shape.mesh, {mark.triangle, mark.barycentric}));
-  return shape;
-}
 
 const std::shared_ptr<const LandmarkModel>& model() {
   static const std::shared_ptr<const LandmarkModel> made = [] {

@@ -8,37 +8,17 @@
 
 #include "base/error.h"
 #include "base/multiversion.h"
-#include "creatures/character.h"
 #include "landmarks/detect.h"
 #include "landmarks/model_file.h"
 #include "landmarks/model_parts.h"
 #include "landmarks/train.h"
 #include "mesh/damage.h"
+#include "sample_humanoid.h"
 
 using namespace focal;
+using namespace focal_test;
 
 namespace {
-
-TriangleMesh posed_mesh(const creatures::Character& character) {
-  TriangleMesh mesh;
-  mesh.positions.resize(character.posed.size(), 3);
-  for (size_t v = 0; v < character.posed.size(); ++v) mesh.positions.row(v) = character.posed[v];
-  mesh.triangles.resize(character.rest.triangles.size(), 3);
-  for (size_t t = 0; t < character.rest.triangles.size(); ++t)
-    for (int i = 0; i < 3; ++i) mesh.triangles(t, i) = character.rest.triangles[t][i];
-  return mesh;
-}
-
-MarkedShape marked(const creatures::Character& character) {
-  MarkedShape shape{std::make_shared<PreparedMesh>(prepare(posed_mesh(character))), {}};
-  for (const auto& mark : character.landmarks)
-    shape.marks.push_back(to_surface(*shape.mesh, {mark.triangle, mark.barycentric}));
-  return shape;
-}
-
-creatures::Character humanoid(uint64_t seed) {
-  return creatures::make_character(creatures::families()[0], "humanoid", seed);
-}
 
 // Six humanoids, made once.
 const TrainingSet& training_set() {

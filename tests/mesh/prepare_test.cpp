@@ -93,7 +93,7 @@ TEST_CASE(
   CHECK_FALSE(is_wrapped(book(20)));  // 40 among 4,961
   for (const AnalysedSurface analysed : {AnalysedSurface::automatic, AnalysedSurface::as_it_is}) {
     const PreparedMesh mesh = prepare(two, {.analysed = analysed});
-    CHECK(mesh.bridges.size() == 3);  // for those who look at the triangles themselves
+    CHECK(bridges_of(mesh).size() == 3);  // for those who look at the triangles themselves
     REQUIRE(mesh.warnings.size() == 1);
     CHECK(mesh.warnings[0].find(mesh.is_wrapped ? "a closed surface round them all"
                                                 : "bridged at the nearest vertices") != std::string::npos);

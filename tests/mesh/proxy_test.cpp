@@ -148,5 +148,5 @@ TEST_CASE(
   }
   // Preset `paper` takes the triangles as they are, and its distances go over the bridges.
   CHECK(make_proxy(mesh, 0).is_full());
-  CHECK_FALSE(mesh->bridges.empty());
+  CHECK_FALSE(bridges_of(*mesh).empty());
 }

@@ -43,6 +43,17 @@ class Arrays(Case):
         self.assertEqual(made.info["is_oriented"], 1)
         self.assertEqual(made.info["surface_triangle_count"], len(faces) - expected)
 
+    def test_a_ground_is_left_out_unless_it_is_kept(self):
+        n = len(self.vertices)
+        vertices = [*self.vertices, (-50, -20, -50), (50, -20, -50), (-50, -20, 50), (50, -20, 50)]
+        faces = [*self.faces, (n, n + 2, n + 1), (n + 1, n + 2, n + 3)]
+        made = focal.Mesh(vertices, faces)
+        self.assertEqual(made.left_out, [focal.LeftOut("the mesh", focal.Scenery.SHEET, 2, False)])
+        self.assertEqual(made.info["surface_triangle_count"], len(self.faces))
+        self.assertIn("a flat sheet", made.warnings[0])
+        kept = focal.Mesh(vertices, faces, keep_scenery=True)
+        self.assertEqual((kept.left_out, kept.info["component_count"]), ([], 2))
+
     @unittest.skipIf(numpy is None, "no NumPy")
     def test_arrays_of_every_layout(self):
         vertices, faces = numpy.array(self.vertices), numpy.array(self.faces)

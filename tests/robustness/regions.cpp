@@ -17,7 +17,7 @@ constexpr double radii[] = {0.1, 0.2};
 // Distances in sqrt(area) from points of the mesh to all its vertices, points x vertices.
 RowMatrixf distances_from(const PreparedMesh& mesh, std::vector<SurfacePoint> points) {
   for (auto& point : points) point = to_surface(mesh, point);
-  const Operators operators = make_operators(mesh.surface, mesh.bridges, true);
+  const Operators operators = make_operators(mesh.surface, bridges_of(mesh), true);
   const HeatMethod heat(mesh.surface, operators);
   const RowMatrixf fields = heat.distances(points, {});
   RowMatrixf result(fields.rows(), mesh.source.vertex_count());

@@ -56,6 +56,25 @@ Vec3 place(const Landmark& mark, const Mesh& mesh) {
   return p;
 }
 
+// Convex combinations of the joints, each of which has more than `lead` of some vertex.
+void check_skin(const Character& c, double lead) {
+  REQUIRE(c.skin.size() == c.rest.positions.size());
+  std::set<int> used;
+  double off = 0, least = 0;
+  for (const Influences& v : c.skin) {
+    double sum = 0;
+    for (int k = 0; k < max_influences; ++k) {
+      sum += v.weights[k];
+      least = std::min(least, v.weights[k]);
+      if (v.weights[k] > lead) used.insert(v.joints[k]);
+    }
+    off = std::max(off, std::abs(sum - 1));
+  }
+  CHECK(off < 1e-12);
+  CHECK(least >= 0);
+  CHECK(used.size() == c.skeleton.joints.size());
+}
+
 }  // namespace
 
 TEST_CASE("the checks see what they are to find") {
@@ -126,21 +145,7 @@ TEST_CASE("triangles of sample characters are well shaped") {
 TEST_CASE("skins of sample characters are convex combinations of existing joints") {
   for (const Character& c : characters()) {
     CAPTURE(c.name);
-    REQUIRE(c.skin.size() == c.rest.positions.size());
-    std::set<int> used;
-    double off = 0, least = 0;
-    for (const Influences& v : c.skin) {
-      double sum = 0;
-      for (int k = 0; k < max_influences; ++k) {
-        sum += v.weights[k];
-        least = std::min(least, v.weights[k]);
-        if (v.weights[k] > 0.4) used.insert(v.joints[k]);
-      }
-      off = std::max(off, std::abs(sum - 1));
-    }
-    CHECK(off < 1e-12);
-    CHECK(least >= 0);
-    CHECK(used.size() == c.skeleton.joints.size());  // every joint leads some vertex
+    check_skin(c, 0.4);
   }
 }
 
@@ -233,21 +238,7 @@ TEST_CASE("pieces of game characters share no vertex and make up the whole mesh"
 TEST_CASE("skins of game characters are convex, use every joint, and leave eyes on the head alone") {
   for (const Character& c : game_characters()) {
     CAPTURE(c.name);
-    REQUIRE(c.skin.size() == c.rest.positions.size());
-    std::set<int> used;
-    double off = 0, least = 0;
-    for (const Influences& v : c.skin) {
-      double sum = 0;
-      for (int k = 0; k < max_influences; ++k) {
-        sum += v.weights[k];
-        least = std::min(least, v.weights[k]);
-        if (v.weights[k] > 0.3) used.insert(v.joints[k]);
-      }
-      off = std::max(off, std::abs(sum - 1));
-    }
-    CHECK(off < 1e-12);
-    CHECK(least >= 0);
-    CHECK(used.size() == c.skeleton.joints.size());
+    check_skin(c, 0.3);
     size_t vertex = 0;
     for (const Piece& piece : c.pieces) {
       if (piece.name.starts_with("eye"))

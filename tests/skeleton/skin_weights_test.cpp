@@ -40,7 +40,7 @@ SurfaceAnalysis analysis_of(TriangleMesh mesh) {
       std::make_shared<const PreparedMesh>(prepare(std::move(mesh), {.analysed = AnalysedSurface::as_it_is}));
   SurfaceAnalysis analysis;
   analysis.proxy = {prepared, prepared};
-  analysis.operators = make_operators(prepared->surface, prepared->bridges, true);
+  analysis.operators = make_operators(prepared->surface, bridges_of(*prepared), true);
   return analysis;
 }
 

@@ -5,9 +5,9 @@
 #include <memory>
 #include <vector>
 
-#include "creatures/character.h"
 #include "landmarks/model_parts.h"
 #include "landmarks/train.h"
+#include "sample_humanoid.h"
 #include "skeleton/rigged_shapes.h"
 
 namespace focal_test {
@@ -20,22 +20,9 @@ inline const Execution execution = [] {
   return two;
 }();
 
-inline creatures::Character humanoid(uint64_t seed) {
-  const auto& families = creatures::families();
-  const auto family =
-      std::find_if(families.begin(), families.end(), [](const auto& f) { return f.name == "humanoid"; });
-  return creatures::make_character(*family, "humanoid", seed);
-}
-
 inline std::shared_ptr<const focal::PreparedMesh> mesh_of(const std::vector<creatures::Vec3>& positions,
                                                           const creatures::Character& from) {
-  TriangleMesh mesh;
-  mesh.positions.resize(static_cast<Eigen::Index>(positions.size()), 3);
-  for (size_t v = 0; v < positions.size(); ++v) mesh.positions.row(v) = positions[v];
-  mesh.triangles.resize(static_cast<Eigen::Index>(from.rest.triangles.size()), 3);
-  for (size_t t = 0; t < from.rest.triangles.size(); ++t)
-    for (int i = 0; i < 3; ++i) mesh.triangles(t, i) = from.rest.triangles[t][i];
-  return std::make_shared<const PreparedMesh>(prepare(std::move(mesh)));
+  return std::make_shared<const PreparedMesh>(prepare(mesh_at(positions, from)));
 }
 
 inline focal::RiggedMesh rigged(const creatures::Character& from) {

@@ -134,7 +134,7 @@ TEST_CASE("skins that teach nothing are named with their file") {
   CHECK(warnings[1].find("character 3 (bare.glb): 6") == 0);
   CHECK(warnings[1].find("no skin weights") != std::string::npos);
   CHECK(warnings[2].find("character 4: 12 skin weights are negative") == 0);
-  std::vector<std::string> told;
-  training_set_of(characters, {.shapes = 4, .landmarks = 10}, {}, &told);
-  CHECK(told == warnings);
+  std::vector<std::string> reported;
+  training_set_of(characters, {.shapes = 4, .landmarks = 10}, {}, &reported);
+  CHECK(reported == warnings);
 }

@@ -25,7 +25,14 @@ learn() {  # NAME CHARACTER...
 rig() {  # INPUT OUT [ARGUMENTS OF focal rig]
   input=$1 out=$2
   shift 2
-  "$focal" rig "$model" "$input" -o "$out" --json --quiet "$@" > "$out.json"
+  # Files are judged here, not rigs: one whose verdict is "failed" (a triceratops by a velociraptor) is written by --keep-failed,
+  # with status 1. Any other failure leaves no file.
+  status=0
+  "$focal" rig "$model" "$input" -o "$out" --keep-failed --json --quiet "$@" > "$out.json" || status=$?
+  if [ "$status" -gt 1 ] || ! [ -s "$out" ]; then
+    echo "viewers: focal rig of $input ended with status $status" >&2
+    exit 1
+  fi
   written "$out" "$input" "rig $*"
 }
 

@@ -52,6 +52,14 @@ class Surface(IntEnum):
     WRAPPED = 2
 
 
+class Scenery(IntEnum):
+    """focal_scenery"""
+    HIDDEN = 0
+    SHEET = 1
+    ENCLOSURE = 2
+    APART = 3
+
+
 class Descriptor(IntEnum):
     """focal_descriptor"""
     SI_HKS = 0
@@ -168,7 +176,7 @@ class focal_mesh_params(Structure):
         ("pose_animation", c_char_p),
         ("pose_time", c_double),
         ("lenient", c_int32),
-        ("reserved", c_int32),
+        ("keep_scenery", c_int32),
         ("task", P(focal_task)),
     ]
 
@@ -205,6 +213,20 @@ class focal_mesh_info(Structure):
         ("component_count", c_uint64),
         ("is_oriented", c_int32),
         ("is_wrapped", c_int32),
+        ("left_out_triangles", c_uint64),
+        ("left_out_count", c_uint32),
+        ("reserved", c_uint32),
+    ]
+
+
+class focal_left_out(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("reason", c_int32),
+        ("name", c_char_p),
+        ("triangle_count", c_uint64),
+        ("is_whole_node", c_int32),
+        ("reserved", c_uint32),
     ]
 
 
@@ -396,6 +418,8 @@ FUNCTIONS = {
     "focal_mesh_positions": (P(c_float), [P(focal_mesh)]),
     "focal_mesh_triangles": (P(c_uint32), [P(focal_mesh)]),
     "focal_mesh_warning": (c_char_p, [P(focal_mesh), c_uint32]),
+    "focal_left_out_init": (c_int32, [P(focal_left_out), c_size_t]),
+    "focal_mesh_get_left_out": (c_int32, [P(focal_mesh), c_uint32, P(focal_left_out)]),
     "focal_mesh_write_wrap_gltf": (c_int32, [P(focal_mesh), c_char_p]),
     "focal_mesh_position_of": (c_int32, [P(focal_mesh), P(focal_surface_point), P(c_float)]),
     "focal_mesh_point_at_vertex": (c_int32, [P(focal_mesh), c_uint32, P(focal_surface_point)]),

@@ -7,7 +7,7 @@ import os
 from typing import Any, NamedTuple, Union
 
 from . import _abi
-from ._abi import Surface
+from ._abi import Scenery, Surface
 from ._arrays import block_of, copied, empty, result
 from ._context import Context, context_or_default
 from ._handle import Handle
@@ -19,6 +19,15 @@ Mark = Union[int, SurfacePoint, None]
 
 NO_VERTEX = _abi.FOCAL_NO_VERTEX
 NO_TRIANGLE = _abi.FOCAL_NO_TRIANGLE
+
+
+class LeftOut(NamedTuple):
+    """What of a scene is not analysed."""
+
+    name: str             # "node 'Ground'"
+    reason: Scenery
+    triangle_count: int   # 0 where it is hidden
+    is_whole_node: bool   # written files keep such a node and its mesh as they were, without a skin
 
 
 class SymmetryPlane(NamedTuple):
@@ -42,6 +51,9 @@ class Mesh(Handle):
                        several parts or many edges of more than two triangles. Results always lie on your triangles
     lenient            leave out triangles with a NaN or infinite corner or a vertex number out of range, with a
                        warning, instead of raising an error. Default False
+    keep_scenery       analyse all of the mesh: also parts that are plainly not the character (a ground, a backdrop, a
+                       shape around it, a prop that stands apart) and nodes that a file hides. Default False: they are
+                       left out with a warning, see left_out
     max_vertices, max_triangles  larger meshes are refused. Defaults 5,000,000 and 10,000,000
     task               cancels the work on a large mesh, see focal.Task
 
@@ -56,7 +68,7 @@ class Mesh(Handle):
 
     def __init__(self, vertices: Any, faces: Any, *, weld: bool | None = None, drop_degenerate: bool | None = None,
                  surface: Surface | str | int | None = None, lenient: bool | None = None,
-                 max_vertices: int | None = None, max_triangles: int | None = None,
+                 keep_scenery: bool | None = None, max_vertices: int | None = None, max_triangles: int | None = None,
                  context: Context | None = None, task: Task | None = None) -> None:
         positions = block_of(vertices, "vertices", "f", 3)
         indices = block_of(faces, "faces", "I", 3)
@@ -65,14 +77,14 @@ class Mesh(Handle):
         desc.positions, desc.vertex_count = positions.pointer, positions.rows
         desc.indices, desc.index_count = indices.pointer, 3 * indices.rows
         params = fill(new(_abi.focal_mesh_params), weld=weld, drop_degenerate=drop_degenerate,
-                      surface=surface, lenient=lenient, max_vertices=max_vertices,
+                      surface=surface, lenient=lenient, keep_scenery=keep_scenery, max_vertices=max_vertices,
                       max_triangles=max_triangles)
         self._take(_made(params, task, "focal_mesh_create", running._handle, ctypes.byref(desc)), running)
 
     @classmethod
     def load(cls, path: str | os.PathLike[str], *, weld: bool | None = None, drop_degenerate: bool | None = None,
              surface: Surface | str | int | None = None, lenient: bool | None = None,
-             allow_external_files: bool | None = None,
+             keep_scenery: bool | None = None, allow_external_files: bool | None = None,
              keep_source_file: bool | None = None, max_vertices: int | None = None,
              max_triangles: int | None = None, max_nodes: int | None = None, max_json_bytes: int | None = None,
              max_file_bytes: int | None = None, pose_animation: str | None = None, pose_time: float | None = None,
@@ -89,9 +101,9 @@ class Mesh(Handle):
         Error: FILE_NOT_FOUND, IO, INVALID_FILE, UNSUPPORTED, and those of Mesh.
         """
         params = fill(new(_abi.focal_mesh_params), weld=weld, drop_degenerate=drop_degenerate,
-                      surface=surface, lenient=lenient, allow_external_files=allow_external_files,
-                      keep_source_file=keep_source_file, max_vertices=max_vertices, max_triangles=max_triangles,
-                      max_nodes=max_nodes, max_json_bytes=max_json_bytes, max_file_bytes=max_file_bytes,
+                      surface=surface, lenient=lenient, keep_scenery=keep_scenery,
+                      allow_external_files=allow_external_files, keep_source_file=keep_source_file,
+                      max_vertices=max_vertices, max_triangles=max_triangles, max_nodes=max_nodes, max_json_bytes=max_json_bytes, max_file_bytes=max_file_bytes,
                       pose_animation=pose_animation, pose_time=pose_time)
         file, running = path_text(path), context_or_default(context)
         return cls._adopt(_made(params, task, "focal_mesh_load_gltf", running._handle, file), running)
@@ -99,14 +111,14 @@ class Mesh(Handle):
     @classmethod
     def from_bytes(cls, data: Any, *, weld: bool | None = None, drop_degenerate: bool | None = None,
                    surface: Surface | str | int | None = None, lenient: bool | None = None,
-                   keep_source_file: bool | None = None,
+                   keep_scenery: bool | None = None, keep_source_file: bool | None = None,
                    max_vertices: int | None = None, max_triangles: int | None = None, max_nodes: int | None = None,
                    max_json_bytes: int | None = None, max_file_bytes: int | None = None,
                    pose_animation: str | None = None, pose_time: float | None = None,
                    context: Context | None = None, task: Task | None = None) -> Mesh:
         """The same from the bytes of a file (bytes-like); external files are refused."""
         params = fill(new(_abi.focal_mesh_params), weld=weld, drop_degenerate=drop_degenerate,
-                      surface=surface, lenient=lenient, keep_source_file=keep_source_file,
+                      surface=surface, lenient=lenient, keep_scenery=keep_scenery, keep_source_file=keep_source_file,
                       max_vertices=max_vertices, max_triangles=max_triangles, max_nodes=max_nodes,
                       max_json_bytes=max_json_bytes, max_file_bytes=max_file_bytes, pose_animation=pose_animation,
                       pose_time=pose_time)
@@ -116,10 +128,11 @@ class Mesh(Handle):
 
     @property
     def info(self) -> dict[str, Any]:
-        """All that the library tells in numbers: counts of the mesh and of the surface that is analysed
+        """All that the library reports in numbers: counts of the mesh and of the surface that is analysed
         (surface_vertex_count, ...), mean_edge_length, surface_area, load_seconds, repair_seconds, and what was found and done: invalid_triangles,
         degenerate_triangles, flipped_triangles, nonmanifold_edges, nonmanifold_vertices, boundary_loops,
-        component_count, is_oriented; is_wrapped: one closed surface round the mesh is analysed."""
+        component_count, is_oriented; is_wrapped: one closed surface round the mesh is analysed; left_out_count,
+        left_out_triangles: see left_out."""
         info = new(_abi.focal_mesh_info)
         call("focal_mesh_get_info", self._handle, ctypes.byref(info))
         return as_dict(info)
@@ -158,6 +171,16 @@ class Mesh(Handle):
     def warnings(self) -> list[str]:
         """Plain sentences on what was found and done."""
         return self._texts("focal_mesh_warning", self.info["warning_count"])
+
+    @property
+    def left_out(self) -> list[LeftOut]:
+        """Hidden nodes and parts that are not the character; empty with keep_scenery."""
+        found = []
+        for index in range(self.info["left_out_count"]):
+            one = new(_abi.focal_left_out)
+            call("focal_mesh_get_left_out", self._handle, index, ctypes.byref(one))
+            found.append(LeftOut(one.name.decode(), Scenery(one.reason), one.triangle_count, bool(one.is_whole_node)))
+        return found
 
     def write_wrap(self, path: str | os.PathLike[str]) -> None:
         """Writes the closed surface round the mesh as a .glb, to look at: what is analysed where info["is_wrapped"].

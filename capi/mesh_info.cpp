@@ -1,0 +1,95 @@
+// What reading and preparing a mesh found, did and left out.
+#include "arguments.h"
+#include "boundary.h"
+#include "mesh.h"
+#include "structs.h"
+
+namespace focal {
+
+template <>
+struct StructTraits<focal_mesh_info> {
+  static constexpr const char* name = "focal_mesh_info";
+  static constexpr size_t first_size = 72;
+  static focal_mesh_info defaults() { return {}; }
+};
+static_assert(sizeof(focal_mesh_info) == 152 && offsetof(focal_mesh_info, repair_seconds) == 64 &&
+              offsetof(focal_mesh_info, is_oriented) == 128 && offsetof(focal_mesh_info, is_wrapped) == 132);
+
+template <>
+struct StructTraits<focal_left_out> {
+  static constexpr const char* name = "focal_left_out";
+  static constexpr size_t first_size = sizeof(focal_left_out);
+  static focal_left_out defaults() { return {}; }
+};
+static_assert(sizeof(void*) != 8 || (sizeof(focal_left_out) == 32 && offsetof(focal_left_out, name) == 8));
+static_assert(FOCAL_SCENERY_SHEET == static_cast<int>(SceneryKind::sheet) &&
+              FOCAL_SCENERY_ENCLOSURE == static_cast<int>(SceneryKind::enclosure) &&
+              FOCAL_SCENERY_APART == static_cast<int>(SceneryKind::apart));
+
+namespace {
+
+focal_mesh_info info_of(const MeshObject& object) {
+  const PreparedMesh& mesh = *object.mesh;
+  const auto count = [](int64_t value) { return static_cast<uint64_t>(value); };
+  focal_mesh_info info{};
+  info.warning_count = static_cast<uint32_t>(object.warnings.size());
+  info.vertex_count = count(mesh.source.vertex_count());
+  info.triangle_count = count(mesh.source.triangle_count());
+  info.surface_vertex_count = count(mesh.surface.vertex_count());
+  info.surface_triangle_count = count(mesh.surface.triangle_count());
+  info.mean_edge_length = object.mean_edge_length;
+  info.surface_area = object.surface_area;
+  info.load_seconds = object.load_seconds;
+  info.repair_seconds = object.repair_seconds;
+  info.invalid_triangles = count(mesh.invalid_triangles);
+  info.degenerate_triangles = count(degenerate_triangles(mesh));
+  info.flipped_triangles = count(flipped_triangles(mesh));
+  info.nonmanifold_edges = count(mesh.topology->nonmanifold_edges);
+  info.nonmanifold_vertices = count(mesh.topology->nonmanifold_vertices);
+  info.boundary_loops = count(mesh.topology->boundary_loops);
+  info.component_count = count(mesh.components);
+  info.is_oriented = mesh.is_oriented;
+  info.is_wrapped = mesh.is_wrapped;
+  info.left_out_triangles = count(mesh.scenery_triangles);
+  info.left_out_count = static_cast<uint32_t>(object.left_out.size());
+  return info;
+}
+
+}  // namespace
+}  // namespace focal
+
+using namespace focal;
+
+focal_status focal_mesh_info_init(focal_mesh_info* info, size_t struct_size) {
+  return guarded([&] { init_struct(info, struct_size); });
+}
+
+focal_status focal_mesh_get_info(const focal_mesh* mesh, focal_mesh_info* out_info) {
+  return guarded([&] {
+    const auto object = resolve<MeshObject>(mesh);
+    write_result(out_info, info_of(*object));
+  });
+}
+
+focal_status focal_left_out_init(focal_left_out* left_out, size_t struct_size) {
+  return guarded([&] { init_struct(left_out, struct_size); });
+}
+
+focal_status focal_mesh_get_left_out(const focal_mesh* mesh, uint32_t index, focal_left_out* out_left_out) {
+  return guarded([&] {
+    const auto object = resolve<MeshObject>(mesh);
+    check_index(index, object->left_out.size(), "the mesh", "parts that are left out");
+    const LeftOut& from = object->left_out[index];
+    focal_left_out to{};
+    to.reason = from.reason;
+    to.name = from.name.c_str();
+    to.triangle_count = static_cast<uint64_t>(from.triangle_count);
+    to.is_whole_node = from.is_whole_node;
+    write_result(out_left_out, to);
+  });
+}
+
+const char* focal_mesh_warning(const focal_mesh* mesh, uint32_t index) {
+  return guarded_value<const char*>(
+      nullptr, [&] { return text_at(resolve<MeshObject>(mesh)->warnings, index, "the mesh", "warnings"); });
+}
