@@ -8,6 +8,7 @@
 #include "base/archive.h"
 #include "base/error.h"
 #include "descriptors/descriptor.h"
+#include "landmarks/detail_section.h"
 #include "landmarks/exemplar_section.h"
 #include "landmarks/features.h"
 #include "landmarks/forest_file.h"
@@ -16,7 +17,7 @@
 namespace focal {
 namespace {
 
-constexpr ArchiveKind kind{"FOCALMDL", "model", 1, 2};
+constexpr ArchiveKind kind{"FOCALMDL", "model", 1, 3};
 constexpr int32_t landmark_limit = 4096, name_limit = 4096, joint_limit = 4096;
 constexpr int32_t most = std::numeric_limits<int32_t>::max();
 constexpr float any_number = 1e9F;  // of learned coefficients: finite, and no sum of a few overflows
@@ -362,6 +363,7 @@ constexpr Section sections[] = {
     {"CALB", write_calibration, read_calibration},
     {"SKEL", write_skeleton, read_skeleton},
     {"EXMP", write_exemplars, read_exemplars},
+    {"DETL", write_details, read_details},
 };
 
 // Models of marked shapes have no skeleton, those of preset paper and of old versions no features and exemplars: their files lack the
@@ -369,11 +371,13 @@ constexpr Section sections[] = {
 bool is_written(const Section& section, const LandmarkModel& model) {
   if (section.write == write_skeleton) return !model.skeleton.empty();
   if (section.write == write_features) return model.params.bulge || model.params.oriented;
+  if (section.write == write_details) return !model.details.empty();
   return section.write != write_exemplars || !model.sample_shape.empty();
 }
 
 bool may_lack(const Section& section) {
-  return section.read == read_skeleton || section.read == read_features || section.read == read_exemplars;
+  return section.read == read_skeleton || section.read == read_features || section.read == read_exemplars ||
+         section.read == read_details;
 }
 
 }  // namespace
@@ -391,8 +395,10 @@ std::vector<std::byte> serialise(const LandmarkModel& model) {
   return write_archive(kind, written);
 }
 
-LandmarkModel parse_model(std::span<const std::byte> file) {
+LandmarkModel parse_model(std::span<const std::byte> file, PartsOfModel parts) {
   const Archive archive(kind, file);
+  if (parts == PartsOfModel::refused && archive.has("DETL"))
+    throw Error(Status::invalid_file, "a part of the model has parts of its own", "train the model again");
   LandmarkModel model;
   const Method method = read_method(archive);
   model.params.bulge = model.params.oriented = false;  // unless the file says so

@@ -40,7 +40,8 @@ struct DetectParams {
   Quality quality = Quality::best;
   // Of models that learned an orientation: how far the mesh may be turned from it. With `upright` headings and axes that differ are
   // tried where the mesh does not fit as it stands, and cost something; with `any_way` they are all alike.
-  enum class Orientation : int32_t { upright = 0, any_way = 1 } orientation = Orientation::upright;
+  // `known`: it stands as the training shapes do.
+  enum class Orientation : int32_t { upright = 0, any_way = 1, known = 2 } orientation = Orientation::upright;
   bool keep_votes = true;  // keep the vote maps in the detection
   uint64_t seed = 1;
   // Places that are known, one a landmark, on the full surface: they stay, and the others are chosen to suit them. Empty: none.
