@@ -336,11 +336,12 @@ void read_features(ByteReader in, LandmarkModel& model) {
   model.params.bulge = in.u8("bulge") != 0, model.params.oriented = in.u8("orientation") != 0;
   if (model.params.oriented) {
     constexpr int32_t columns = 6;
-    const int32_t rows = in.count("sample count", columns * 16, 1);
+    const int32_t rows = in.count("sample count", columns * 16);
     model.facing_targets.resize(rows, columns);
     for (float& value : model.facing_targets.reshaped<Eigen::RowMajor>())
       value = place_from_file(in.u16("place"));
-    const int32_t trees = in.i32("tree count", 1, most);
+    model.params.finds_heading = rows > 0;
+    const int32_t trees = in.i32("tree count", rows > 0 ? 1 : 0, rows > 0 ? most : 0);
     model.rising = read_forest(in, LeafKind::samples, trees, rows, invariant_feature_count(model.params));
     model.facing = read_forest(in, LeafKind::samples, trees, rows, upright_feature_count(model.params));
   }

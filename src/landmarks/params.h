@@ -24,10 +24,11 @@ struct TrainParams {
       3;  // of every training shape: one noisy with holes, the others with a part cut off
   bool learns_confidence = true;  // by cross-fitting, the longer part; a model without has no say on it
   uint64_t seed = 0;
-  bool bulge = true;       // preset default: the forest knows how the surface bulges
-  bool oriented = true;    // likewise, of rigged shapes: where a point lies and faces, +Y up and +Z front
-  int32_t descriptor = 0;  // number in descriptors/descriptor.h
-  int32_t distance = 0;    // number in geodesics/distance.h
+  bool bulge = true;          // preset default: the forest knows how the surface bulges
+  bool oriented = true;       // likewise, of rigged shapes: where a point lies and faces, +Y up and +Z front
+  bool finds_heading = true;  // where oriented: which way a mesh stands is not known beforehand
+  int32_t descriptor = 0;     // number in descriptors/descriptor.h
+  int32_t distance = 0;       // number in geodesics/distance.h
   static TrainParams from_preset(Preset preset);
 };
 
@@ -40,8 +41,7 @@ struct DetectParams {
   Quality quality = Quality::best;
   // Of models that learned an orientation: how far the mesh may be turned from it. With `upright` headings and axes that differ are
   // tried where the mesh does not fit as it stands, and cost something; with `any_way` they are all alike.
-  // `known`: it stands as the training shapes do.
-  enum class Orientation : int32_t { upright = 0, any_way = 1, known = 2 } orientation = Orientation::upright;
+  enum class Orientation : int32_t { upright = 0, any_way = 1 } orientation = Orientation::upright;
   bool keep_votes = true;  // keep the vote maps in the detection
   uint64_t seed = 1;
   // Places that are known, one a landmark, on the full surface: they stay, and the others are chosen to suit them. Empty: none.

@@ -14,7 +14,8 @@ struct CharacterRig {
   // Where each joint goes when the character takes the rest pose of those it was learned from: turned as theirs are, with bones
   // of its own length, its roots where they are. Empty: none is known.
   std::vector<Matrix4> rest;
-  std::vector<double> confidence;  // per joint 0..1
+  std::vector<double> confidence;   // per joint 0..1
+  std::vector<char> left_out = {};  // per joint: the mesh has no such part, nothing is moved; empty: none is
   std::vector<std::string> warnings;
 };
 

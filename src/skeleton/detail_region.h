@@ -20,6 +20,9 @@ std::vector<int32_t> detail_joints(const std::vector<SkeletonJoint>& skeleton,
 // The joints of such a part: its root's parent, where it has one, its root, and all that hang on it, in the skeleton's order.
 std::vector<int32_t> joints_of_part(const std::vector<SkeletonJoint>& skeleton, int32_t root);
 
+inline constexpr double root_trust =
+    3;  // of the root's place beside one of the joints beyond it, where frames are fitted
+
 // A frame of which +Y leads from the part's root to where its bones end and X across them, with the root at its origin.
 // places: of the joints of the part; first of them the root's.
 Similarity frame_of(const std::vector<Vector3>& places);

@@ -24,6 +24,8 @@ TrainParams params_of_part(uint64_t seed) {
   params.proxy_vertices = 1000;
   params.spoiled_copies = 0;
   params.learns_confidence = false;
+  params.finds_heading = false;
+  params.max_samples_per_shape = 400;
   params.seed = seed;
   return params;
 }
@@ -70,13 +72,16 @@ Part part_at(int32_t root, const std::vector<RiggedMesh>& characters,
 
 // From the part's frame to the character's coordinates, by the joints that both have.
 Similarity fitted_frame(const Part& part, size_t teacher, const std::vector<Vector3>& reference) {
-  std::vector<Vector3> from, to;
-  for (size_t i = part.root; i < part.joints.size(); ++i)
-    if (part.own[teacher][i] >= 0) from.push_back(reference[i]), to.push_back(part.place(teacher, i));
-  MatrixX3 a(from.size(), 3), b(from.size(), 3);
-  for (size_t i = 0; i < from.size(); ++i)
-    a.row(static_cast<Eigen::Index>(i)) = from[i], b.row(static_cast<Eigen::Index>(i)) = to[i];
-  return fit_similarity(a, b, Vector::Ones(a.rows()));
+  const auto count = static_cast<Eigen::Index>(part.joints.size());
+  MatrixX3 from = MatrixX3::Zero(count, 3), to = from;
+  Vector weight = Vector::Zero(count);
+  for (size_t i = part.root; i < part.joints.size(); ++i) {
+    if (part.own[teacher][i] < 0) continue;
+    const auto row = static_cast<Eigen::Index>(i);
+    from.row(row) = reference[i].transpose(), to.row(row) = part.place(teacher, i).transpose();
+    weight[row] = i == part.root ? root_trust : 1;
+  }
+  return fit_similarity(from, to, weight);
 }
 
 Vector3 in_frame(const Similarity& frame, const Vector3& p) {
