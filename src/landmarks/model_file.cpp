@@ -326,6 +326,7 @@ void write_features(const LandmarkModel& model, ByteWriter& out) {
   out.u8(model.params.bulge), out.u8(model.params.oriented);
   if (!model.params.oriented) return;
   out.u32(static_cast<uint32_t>(model.facing_targets.rows()));
+  if (!model.params.finds_heading) return;
   for (const float value : model.facing_targets.reshaped<Eigen::RowMajor>()) out.u16(place_to_file(value));
   out.u32(static_cast<uint32_t>(model.facing.trees.size()));
   for (const RegressionForest* forest : {&model.rising, &model.facing})
@@ -341,9 +342,11 @@ void read_features(ByteReader in, LandmarkModel& model) {
     for (float& value : model.facing_targets.reshaped<Eigen::RowMajor>())
       value = place_from_file(in.u16("place"));
     model.params.finds_heading = rows > 0;
-    const int32_t trees = in.i32("tree count", rows > 0 ? 1 : 0, rows > 0 ? most : 0);
-    model.rising = read_forest(in, LeafKind::samples, trees, rows, invariant_feature_count(model.params));
-    model.facing = read_forest(in, LeafKind::samples, trees, rows, upright_feature_count(model.params));
+    if (rows > 0) {
+      const int32_t trees = in.i32("tree count", 1, most);
+      model.rising = read_forest(in, LeafKind::samples, trees, rows, invariant_feature_count(model.params));
+      model.facing = read_forest(in, LeafKind::samples, trees, rows, upright_feature_count(model.params));
+    }
   }
   in.expect_end();
 }

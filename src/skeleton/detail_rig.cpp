@@ -82,6 +82,19 @@ Similarity frame_of_limb(const DetailModel& detail, const CharacterRig& rig, con
   return frame;
 }
 
+// To steps far above what rounding does to the joints: the grid of cells in the frame would otherwise fall differently on another
+// machine, and for a model that was saved.
+Similarity rounded(Similarity frame) {
+  constexpr double steps = 512;
+  const auto whole = [](double x) { return std::round(steps * x) / steps; };
+  Eigen::Quaterniond turn(frame.rotation);
+  turn.coeffs() = turn.coeffs().unaryExpr(whole).eval();
+  frame.rotation = turn.normalized().toRotationMatrix();
+  frame.scale = std::exp(whole(std::log(frame.scale)));
+  frame.offset = frame.scale * (frame.offset / frame.scale).unaryExpr(whole).eval();
+  return frame;
+}
+
 bool are_alike(const Similarity& a, const Similarity& b) {
   constexpr double turned = 0.4, sized = 0.3, moved = 0.3;  // radians, of log scale, of the scale
   return Eigen::AngleAxisd(a.rotation.transpose() * b.rotation).angle() < turned &&
@@ -96,7 +109,13 @@ struct Look {
   double support = -std::numeric_limits<double>::infinity();
 };
 
+// Nothing speaks for a part that does not hang where the body ends.
 double support_of(const Detection& found, const CharacterRig& rig, const DetailModel& detail) {
+  constexpr double farthest_root = 0.4;  // from where the body's rig has it, in the part's frame
+  for (size_t i = 0; i < detail.joints.size(); ++i)
+    if (detail.joints[i] == detail.joint &&
+        (rig.rig.joints[i].bind.topRightCorner<3, 1>() - detail.reference[i]).norm() > farthest_root)
+      return -std::numeric_limits<double>::infinity();
   return median_separateness(found, rig) + bulge_share * found.bulge_agreement -
          bone_strain(detail.reference, rig);
 }
@@ -142,6 +161,8 @@ void share_weights(const DetailModel& detail, const std::vector<char>& is_below,
     for (const Influence& one : *own)
       if (is_below[detail.joints[one.joint]])
         weights[detail.joints[one.joint]] += of_part * one.weight / found;
+  rig.influences[source] = {};
+  if (!rig.more.empty()) rig.more[source] = {};
   put_influences(weights, influences, source, rig);
 }
 
@@ -189,7 +210,8 @@ void refine(const DetailModel& detail, const Detection& detection, int32_t influ
   const std::vector<char> is_below = part_of(joints, detail.joint);
   std::vector<char> is_of_part = is_below;
   if (const int32_t p = joints[detail.joint].parent; p >= 0) is_of_part[p] = 1;
-  const Similarity frame = found_frame(detail, rig, is_below), by_limb = frame_of_limb(detail, rig, frame);
+  const Similarity frame = rounded(found_frame(detail, rig, is_below)),
+                   by_limb = rounded(frame_of_limb(detail, rig, frame));
   Look look = look_at(detail, detection, rig, frame, is_of_part, influences, execution);
   if (look.support < enough_support && !are_alike(frame, by_limb)) {
     Look other = look_at(detail, detection, rig, by_limb, is_of_part, influences, execution);

@@ -13,7 +13,7 @@ namespace {
 constexpr size_t most_teachers =
     16;  // of a part; more add little to what a hand looks like, but room in the file
 constexpr int32_t fewest_shapes = 12;
-constexpr int32_t landmarks = 32;
+constexpr int32_t landmarks = 24;
 // Beyond the root's end of the part, in its frame: enough of the limb below to see where the part begins.
 constexpr double limb_below = 0.25, limb_before_bones = 1.5;
 
@@ -107,8 +107,8 @@ std::vector<Vector3> mean_places(const Part& part) {
     for (size_t i = 0; i < part.joints.size(); ++i)
       if (part.own[t][i] >= 0) sum[i] += in_frame(own, part.place(t, i)), ++count[i];
   }
-  for (size_t i = 0; i < sum.size(); ++i)
-    reference[i] = count[i] > 0 ? Vector3(sum[i] / count[i]) : Vector3::Zero();
+  for (size_t i = 0; i < sum.size(); ++i)  // as the file keeps them
+    reference[i] = count[i] > 0 ? Vector3((sum[i] / count[i]).cast<float>().cast<double>()) : Vector3::Zero();
   return reference;
 }
 
@@ -121,7 +121,8 @@ double start_of(const Part& part, const std::vector<SkeletonJoint>& skeleton,
   begin /= bones;
   for (size_t i = part.root + 1; i < part.joints.size(); ++i)
     reach = std::max(reach, (reference[i] - begin).norm());
-  return std::max(reference[part.root].y() - limb_below, begin.y() - limb_before_bones * reach);
+  return static_cast<float>(
+      std::max(reference[part.root].y() - limb_below, begin.y() - limb_before_bones * reach));
 }
 
 // A teacher's part as a character of its own. Weights of joints beyond it are those of the limb below.
