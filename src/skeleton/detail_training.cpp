@@ -10,8 +10,8 @@
 namespace focal {
 namespace {
 
-constexpr size_t most_teachers =
-    16;  // of a part; more add little to what a hand looks like, but room in the file
+// Of a part: more add little to what a hand looks like, but much to the file.
+constexpr size_t most_teachers = 10;
 constexpr int32_t fewest_shapes = 12;
 constexpr int32_t landmarks = 24;
 // Beyond the root's end of the part, in its frame: enough of the limb below to see where the part begins.
