@@ -38,6 +38,9 @@ void clear_influences(size_t vertices, int32_t most, Rig& rig);
 void put_influences_on_source(const RowMatrixf& weights, const SurfaceAnalysis& analysis, int32_t most,
                               Rig& rig, const Execution& execution);
 
+// Per joint the one on the other side by its name (see mirrored_name), -1: none.
+std::vector<int32_t> other_sides(const std::vector<Joint>& joints);
+
 // Both sides get bones of the same length, each joint moved along its bone; pairs are told by their names (see mirrored_name).
 // Of a pair the side that is known better counts more. The limbs keep their pose.
 void make_bones_symmetric(CharacterRig& character);

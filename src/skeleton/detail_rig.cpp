@@ -18,7 +18,7 @@ constexpr int32_t fewest_triangles = 40;  // of a region that shows more than th
 constexpr int32_t votes = 400;
 // What speaks for joints in a part: chains that are as separate as on the training shapes (1), surfaces that bulge alike, bones of
 // like lengths. Hands with fingers of other game packs have 0.44 and more, mittens up to 0.25.
-constexpr double bulge_share = 2, enough_support = 0.35;
+constexpr double bulge_share = 2, enough_support = 0.35, enough_beside_pair = 0.1;
 
 std::vector<char> part_of(const std::vector<Joint>& joints, int32_t root) {
   std::vector<char> result(joints.size(), 0);
@@ -111,7 +111,7 @@ struct Look {
 
 // Nothing speaks for a part that does not hang where the body ends.
 double support_of(const Detection& found, const CharacterRig& rig, const DetailModel& detail) {
-  constexpr double farthest_root = 0.4;  // from where the body's rig has it, in the part's frame
+  constexpr double farthest_root = 0.5;  // from where the body's rig has it, in the part's frame
   for (size_t i = 0; i < detail.joints.size(); ++i)
     if (detail.joints[i] == detail.joint &&
         (rig.rig.joints[i].bind.topRightCorner<3, 1>() - detail.reference[i]).norm() > farthest_root)
@@ -204,8 +204,8 @@ void leave_out(const Look& look, const DetailModel& detail, const std::vector<ch
                          " joints beyond '" + joints[detail.joint].name + "': they move no vertex");
 }
 
-void refine(const DetailModel& detail, const Detection& detection, int32_t influences, CharacterRig& rig,
-            const Execution& execution) {
+Look best_look(const DetailModel& detail, const Detection& detection, int32_t influences,
+               const CharacterRig& rig, const Execution& execution) {
   const auto& joints = rig.rig.joints;
   const std::vector<char> is_below = part_of(joints, detail.joint);
   std::vector<char> is_of_part = is_below;
@@ -213,22 +213,44 @@ void refine(const DetailModel& detail, const Detection& detection, int32_t influ
   const Similarity frame = rounded(found_frame(detail, rig, is_below)),
                    by_limb = rounded(frame_of_limb(detail, rig, frame));
   Look look = look_at(detail, detection, rig, frame, is_of_part, influences, execution);
-  if (look.support < enough_support && !are_alike(frame, by_limb)) {
+  if (look.support >= enough_support) return look;
+  if (!are_alike(frame, by_limb)) {
     Look other = look_at(detail, detection, rig, by_limb, is_of_part, influences, execution);
     if (other.support > look.support) look = std::move(other);
   }
-  if (look.support >= enough_support) return take_over(look, detail, is_below, influences, rig);
-  look.frame = by_limb;
-  leave_out(look, detail, is_below, influences, rig);
+  if (look.support < enough_beside_pair) look.frame = by_limb;
+  return look;
+}
+
+// A part is there where enough speaks for it; less does where the same part of the other side is there.
+std::vector<char> are_there(const std::vector<DetailModel>& details, const std::vector<Look>& looks,
+                            const std::vector<Joint>& joints) {
+  const std::vector<int32_t> other = other_sides(joints);
+  std::vector<char> result;
+  for (size_t d = 0; d < details.size(); ++d) {
+    double needed = enough_support;
+    for (size_t e = 0; e < details.size(); ++e)
+      if (details[e].joint == other[details[d].joint] && looks[e].support >= enough_support)
+        needed = enough_beside_pair;
+    result.push_back(looks[d].support >= needed);
+  }
+  return result;
 }
 
 }  // namespace
 
 void refine_details(const Detection& detection, int32_t influences, CharacterRig& rig,
                     const Execution& execution) {
-  for (const DetailModel& detail : detection.model->details) {
+  const std::vector<DetailModel>& details = detection.model->details;
+  std::vector<Look> looks;  // all of them before the rig changes
+  for (const DetailModel& detail : details) {
     execution.check_cancelled();
-    refine(detail, detection, influences, rig, execution);
+    looks.push_back(best_look(detail, detection, influences, rig, execution));
+  }
+  const std::vector<char> is_there = are_there(details, looks, rig.rig.joints);
+  for (size_t d = 0; d < details.size(); ++d) {
+    const std::vector<char> is_below = part_of(rig.rig.joints, details[d].joint);
+    (is_there[d] ? take_over : leave_out)(looks[d], details[d], is_below, influences, rig);
   }
 }
 
