@@ -14,6 +14,7 @@
 #include "landmarks/model_file.h"
 #include "landmarks/model_parts.h"
 #include "landmarks/train.h"
+#include "skeleton/detail_training.h"
 #include "structs.h"
 #include "task.h"
 #include "training_set.h"
@@ -144,7 +145,10 @@ focal_status focal_model_train(const focal_training_set* set, const focal_train_
                                  &odd)
                : TrainingSet{};
     object->context->report_warnings(odd);
-    *out_model = publish_model(object->context, train(rigged ? made : object->set, how, execution));
+    LandmarkModel model = train(rigged ? made : object->set, how, execution);
+    if (rigged && how.preset == Preset::default_preset)
+      model.details = learn_details(object->characters, model.skeleton, how.seed, execution);
+    *out_model = publish_model(object->context, std::move(model));
   });
 }
 

@@ -15,6 +15,7 @@ namespace focal {
 namespace {
 
 constexpr int32_t remembered_points = 800;  // of a training shape; 500 measured a tenth worse
+constexpr int32_t vertices_a_point = 3;     // fewer points on small proxies
 constexpr int rings = 3;                    // of triangles round a vertex near a mark's place
 constexpr double noise_share = 0.5;         // of a map's dimensions that err on their own
 
@@ -197,7 +198,10 @@ AtlasShape remember_shape(const SurfaceAnalysis& analysis,
   const auto& surface = analysis.surface();
   const auto& Phi = analysis.eigenfunctions;
   const auto L = static_cast<Eigen::Index>(points.size());
-  const std::vector<int32_t> spread = farthest_points(surface.positions, remembered_points);
+  const int32_t proxy = analysis.params.proxy_vertices;
+  const std::vector<int32_t> spread =
+      farthest_points(surface.positions,
+                      proxy > 0 ? std::min(remembered_points, proxy / vertices_a_point) : remembered_points);
   const auto count = static_cast<Eigen::Index>(spread.size());
   AtlasShape shape;
   shape.samples.Phi = RowMatrixf::Zero(count + L, Phi.cols());

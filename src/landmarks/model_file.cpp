@@ -8,6 +8,7 @@
 #include "base/archive.h"
 #include "base/error.h"
 #include "descriptors/descriptor.h"
+#include "landmarks/detail_section.h"
 #include "landmarks/exemplar_section.h"
 #include "landmarks/features.h"
 #include "landmarks/forest_file.h"
@@ -16,7 +17,7 @@
 namespace focal {
 namespace {
 
-constexpr ArchiveKind kind{"FOCALMDL", "model", 1, 2};
+constexpr ArchiveKind kind{"FOCALMDL", "model", 1, 3};
 constexpr int32_t landmark_limit = 4096, name_limit = 4096, joint_limit = 4096;
 constexpr int32_t most = std::numeric_limits<int32_t>::max();
 constexpr float any_number = 1e9F;  // of learned coefficients: finite, and no sum of a few overflows
@@ -325,6 +326,7 @@ void write_features(const LandmarkModel& model, ByteWriter& out) {
   out.u8(model.params.bulge), out.u8(model.params.oriented);
   if (!model.params.oriented) return;
   out.u32(static_cast<uint32_t>(model.facing_targets.rows()));
+  if (!model.params.finds_heading) return;
   for (const float value : model.facing_targets.reshaped<Eigen::RowMajor>()) out.u16(place_to_file(value));
   out.u32(static_cast<uint32_t>(model.facing.trees.size()));
   for (const RegressionForest* forest : {&model.rising, &model.facing})
@@ -335,13 +337,16 @@ void read_features(ByteReader in, LandmarkModel& model) {
   model.params.bulge = in.u8("bulge") != 0, model.params.oriented = in.u8("orientation") != 0;
   if (model.params.oriented) {
     constexpr int32_t columns = 6;
-    const int32_t rows = in.count("sample count", columns * 16, 1);
+    const int32_t rows = in.count("sample count", columns * 16);
     model.facing_targets.resize(rows, columns);
     for (float& value : model.facing_targets.reshaped<Eigen::RowMajor>())
       value = place_from_file(in.u16("place"));
-    const int32_t trees = in.i32("tree count", 1, most);
-    model.rising = read_forest(in, LeafKind::samples, trees, rows, invariant_feature_count(model.params));
-    model.facing = read_forest(in, LeafKind::samples, trees, rows, upright_feature_count(model.params));
+    model.params.finds_heading = rows > 0;
+    if (rows > 0) {
+      const int32_t trees = in.i32("tree count", 1, most);
+      model.rising = read_forest(in, LeafKind::samples, trees, rows, invariant_feature_count(model.params));
+      model.facing = read_forest(in, LeafKind::samples, trees, rows, upright_feature_count(model.params));
+    }
   }
   in.expect_end();
 }
@@ -362,6 +367,7 @@ constexpr Section sections[] = {
     {"CALB", write_calibration, read_calibration},
     {"SKEL", write_skeleton, read_skeleton},
     {"EXMP", write_exemplars, read_exemplars},
+    {"DETL", write_details, read_details},
 };
 
 // Models of marked shapes have no skeleton, those of preset paper and of old versions no features and exemplars: their files lack the
@@ -369,11 +375,13 @@ constexpr Section sections[] = {
 bool is_written(const Section& section, const LandmarkModel& model) {
   if (section.write == write_skeleton) return !model.skeleton.empty();
   if (section.write == write_features) return model.params.bulge || model.params.oriented;
+  if (section.write == write_details) return !model.details.empty();
   return section.write != write_exemplars || !model.sample_shape.empty();
 }
 
 bool may_lack(const Section& section) {
-  return section.read == read_skeleton || section.read == read_features || section.read == read_exemplars;
+  return section.read == read_skeleton || section.read == read_features || section.read == read_exemplars ||
+         section.read == read_details;
 }
 
 }  // namespace
@@ -391,8 +399,10 @@ std::vector<std::byte> serialise(const LandmarkModel& model) {
   return write_archive(kind, written);
 }
 
-LandmarkModel parse_model(std::span<const std::byte> file) {
+LandmarkModel parse_model(std::span<const std::byte> file, PartsOfModel parts) {
   const Archive archive(kind, file);
+  if (parts == PartsOfModel::refused && archive.has("DETL"))
+    throw Error(Status::invalid_file, "a part of the model has parts of its own", "train the model again");
   LandmarkModel model;
   const Method method = read_method(archive);
   model.params.bulge = model.params.oriented = false;  // unless the file says so

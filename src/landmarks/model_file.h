@@ -12,6 +12,8 @@ std::vector<std::byte> serialise(const LandmarkModel& model);
 
 // Believes nothing: a model that comes back can be used without further checks.
 // Throws invalid_file (not a model, truncated, damaged, contradictory) and unsupported_version.
-LandmarkModel parse_model(std::span<const std::byte> file);
+// parts: whether it may have parts with models of their own (see DetailModel), as those themselves may not.
+enum class PartsOfModel { allowed, refused };
+LandmarkModel parse_model(std::span<const std::byte> file, PartsOfModel parts = PartsOfModel::allowed);
 
 }  // namespace focal

@@ -42,6 +42,16 @@ struct AtlasShape {
   ConstellationSample constellation;  // of its marks; nothing in old models
 };
 
+// A part of the body with many short bones (a hand) that is analysed once more by itself; see skeleton/detail_region.h.
+struct DetailModel {
+  int32_t joint = 0;            // of the skeleton: the part's root
+  std::vector<int32_t> joints;  // per joint of the part's own skeleton: its number in the whole one
+  std::vector<Vector3>
+      reference;     // likewise: where it lies in the part's frame, in the mean of the training shapes
+  double start = 0;  // the part is cut off at this height of its frame
+  std::shared_ptr<const LandmarkModel> model;
+};
+
 struct LandmarkModel : std::enable_shared_from_this<LandmarkModel> {
   std::vector<std::string> landmark_names;
   TrainParams params;
@@ -62,6 +72,8 @@ struct LandmarkModel : std::enable_shared_from_this<LandmarkModel> {
   ConstellationStatistics constellation;
   Calibration calibration;
   std::vector<SkeletonJoint> skeleton;  // of the rigged training shapes; empty without any
+  std::vector<DetailModel>
+      details;  // parts of it with many short bones; of models that are not such a part themselves
 };
 
 }  // namespace focal

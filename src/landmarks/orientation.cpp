@@ -91,7 +91,7 @@ std::vector<Heading> headings_about_up(const LandmarkModel& model, const Surface
 
 std::vector<Heading> headings_to_try(const LandmarkModel& model, const SurfaceAnalysis& analysis,
                                      DetectParams::Orientation orientation) {
-  if (!model.params.oriented) return {Heading{}};
+  if (!model.params.oriented || !model.params.finds_heading) return {Heading{}};
   const bool any_way = orientation == DetectParams::Orientation::any_way;
   const auto count = std::min(looked_at, static_cast<int32_t>(analysis.samples.size()));
   const RowMatrixf placed = placed_features(analysis, count);

@@ -14,7 +14,8 @@ struct Heading {
 
 // As the training shapes stand first, then facing backwards, which looks most like it, then where two forests expect the body to face
 // and its up axis to lie: one knows only what no motion changes of a point, the other also its height, and both where such points
-// lie and face on the training shapes. A model without an orientation has one heading.
+// lie and face on the training shapes. A model without an orientation, and one for meshes that stand in a
+// known way, has one heading.
 std::vector<Heading> headings_to_try(const LandmarkModel& model, const SurfaceAnalysis& analysis,
                                      DetectParams::Orientation orientation);
 

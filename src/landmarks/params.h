@@ -24,10 +24,11 @@ struct TrainParams {
       3;  // of every training shape: one noisy with holes, the others with a part cut off
   bool learns_confidence = true;  // by cross-fitting, the longer part; a model without has no say on it
   uint64_t seed = 0;
-  bool bulge = true;       // preset default: the forest knows how the surface bulges
-  bool oriented = true;    // likewise, of rigged shapes: where a point lies and faces, +Y up and +Z front
-  int32_t descriptor = 0;  // number in descriptors/descriptor.h
-  int32_t distance = 0;    // number in geodesics/distance.h
+  bool bulge = true;          // preset default: the forest knows how the surface bulges
+  bool oriented = true;       // likewise, of rigged shapes: where a point lies and faces, +Y up and +Z front
+  bool finds_heading = true;  // where oriented: which way a mesh stands is not known beforehand
+  int32_t descriptor = 0;     // number in descriptors/descriptor.h
+  int32_t distance = 0;       // number in geodesics/distance.h
   static TrainParams from_preset(Preset preset);
 };
 

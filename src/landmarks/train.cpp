@@ -221,7 +221,7 @@ void learn_parts(LandmarkModel& model, const std::vector<const Lessons*>& shapes
                             .min_split_samples = 2 * model.params.min_leaf_samples,
                             .components_per_split = model.params.components_per_split,
                             .seed = model.params.seed};
-  if (model.params.oriented) learn_facing(model, lessons, execution);
+  if (model.params.oriented && model.params.finds_heading) learn_facing(model, lessons, execution);
   model.forests.assign(1, grow_forest(bin_descriptors(descriptors, execution), targets, forest, execution));
 }
 

@@ -1,5 +1,6 @@
 #include "mesh/proxy.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "mesh/closest_point.h"
@@ -11,8 +12,9 @@
 namespace focal {
 namespace {
 
-constexpr double worth_it = 1.1;     // a surface hardly larger than the proxy is analysed as it is
-constexpr double search_radius = 2;  // in mean edge lengths of the coarse surface
+constexpr double cells_a_vertex = 12;  // of a wrap: small proxies need no finer one
+constexpr double worth_it = 1.1;       // a surface hardly larger than the proxy is analysed as it is
+constexpr double search_radius = 2;    // in mean edge lengths of the coarse surface
 
 // Decimation has taken more than triangles: many small parts, or a few triangles that hold all the area.
 bool has_collapsed(const TriangleMesh& coarse, int32_t vertices) {
@@ -30,7 +32,9 @@ Vector3 normal_of(const TriangleMesh& mesh, int32_t t) {
 Proxy make_proxy(std::shared_ptr<const PreparedMesh> mesh, int32_t vertices, const Execution& execution,
                  bool may_mend) {
   if (mesh->is_wrapped && may_mend) {
-    TriangleMesh shell = wrap(mesh->surface, {}, execution).mesh;
+    WrapParams how;
+    if (vertices > 0) how.area_cells = std::min(how.area_cells, cells_a_vertex * vertices);
+    TriangleMesh shell = wrap(mesh->surface, how, execution).mesh;
     if (vertices > 0 && shell.vertex_count() > worth_it * vertices)
       shell = decimate(shell, vertices, execution);
     return {mesh,

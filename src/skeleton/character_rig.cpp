@@ -9,7 +9,8 @@ namespace {
 
 constexpr float least_weight = 0.02f;  // lighter influences are dropped
 
-// The joint on the other side, -1: none.
+}  // namespace
+
 std::vector<int32_t> other_sides(const std::vector<Joint>& joints) {
   std::vector<int32_t> result;
   for (const Joint& joint : joints) {
@@ -20,8 +21,6 @@ std::vector<int32_t> other_sides(const std::vector<Joint>& joints) {
   }
   return result;
 }
-
-}  // namespace
 
 ToCaller::ToCaller(const SurfaceAnalysis& analysis) {
   const PreparedMesh& full = *analysis.proxy.full;

@@ -14,7 +14,8 @@ struct CharacterRig {
   // Where each joint goes when the character takes the rest pose of those it was learned from: turned as theirs are, with bones
   // of its own length, its roots where they are. Empty: none is known.
   std::vector<Matrix4> rest;
-  std::vector<double> confidence;  // per joint 0..1
+  std::vector<double> confidence;   // per joint 0..1
+  std::vector<char> left_out = {};  // per joint: the mesh has no such part, nothing is moved; empty: none is
   std::vector<std::string> warnings;
 };
 
@@ -36,6 +37,9 @@ void clear_influences(size_t vertices, int32_t most, Rig& rig);
 // From weights at the vertices of the analysed surface (vertices x joints, >= 0) to the heaviest of each source vertex.
 void put_influences_on_source(const RowMatrixf& weights, const SurfaceAnalysis& analysis, int32_t most,
                               Rig& rig, const Execution& execution);
+
+// Per joint the one on the other side by its name (see mirrored_name), -1: none.
+std::vector<int32_t> other_sides(const std::vector<Joint>& joints);
 
 // Both sides get bones of the same length, each joint moved along its bone; pairs are told by their names (see mirrored_name).
 // Of a pair the side that is known better counts more. The limbs keep their pose.

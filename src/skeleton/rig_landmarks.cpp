@@ -111,6 +111,24 @@ double distance_between(const TrainingSet& set, const Candidate& a, const Candid
   return count > 0 ? sum / count : std::numeric_limits<double>::infinity();
 }
 
+// Joints beyond which no other has a part of the surface on most shapes: markers at the ends of fingers move a vertex or none.
+std::vector<char> ends_of_limbs(const TrainingSet& set) {
+  std::vector<int32_t> parts(set.skeleton.size(), 0);
+  for (const MarkedShape& shape : set.shapes)
+    for (size_t j = 0; j < parts.size(); ++j)
+      if (const auto& bind = shape.rig->bind[j])
+        parts[j] += (shape.rig->tip[j] - bind->topRightCorner<3, 1>()).norm() > 0;
+  std::vector<char> result(set.skeleton.size(), 0),
+      has_part(set.skeleton.size(), 0);  // at or below the joint
+  for (size_t j = set.skeleton.size(); j-- > 0;) {
+    const bool own = 2 * parts[j] > static_cast<int32_t>(set.shapes.size());
+    result[j] = own && !has_part[j];
+    has_part[j] |= own;
+    if (const int32_t p = set.skeleton[j].parent; p >= 0) has_part[p] |= has_part[j];
+  }
+  return result;
+}
+
 }  // namespace
 
 RowMatrixf weights_below(const std::vector<SkeletonJoint>& skeleton,
@@ -144,9 +162,7 @@ void mark_by_skeleton(TrainingSet& set, int32_t most) {
   std::vector<RowMatrixf> below;
   for (const MarkedShape& shape : set.shapes)
     below.push_back(weights_below(set.skeleton, shape.rig->influences));
-  std::vector<char> is_leaf(set.skeleton.size(), 1);
-  for (const SkeletonJoint& joint : set.skeleton)
-    if (joint.parent >= 0) is_leaf[joint.parent] = 0;
+  const std::vector<char> is_leaf = ends_of_limbs(set);
   std::vector<Candidate> candidates;  // tips first, which are found best
   for (size_t j = 0; j < set.skeleton.size(); ++j)
     if (is_leaf[j]) add_tip(set, static_cast<int32_t>(j), candidates);

@@ -9,6 +9,7 @@
 #include "landmarks/atlas.h"
 #include "mesh/section.h"
 #include "mesh/similarity.h"
+#include "skeleton/detail_rig.h"
 #include "skeleton/part_weights.h"
 #include "skeleton/rig_landmarks.h"
 #include "skeleton/taught_weights.h"
@@ -23,6 +24,10 @@ constexpr double alike_falloff = 30;    // a shape counts exp(-falloff (residual
 constexpr double place_outlier = 0.02;  // of sqrt(area): places farther from the consensus count less
 constexpr double ring_radius = 0.15;    // of sqrt(area): what is farther from the joint hardly counts
 constexpr double ring_softness = 0.05;  // share of a joint's part that counts beside its ring
+
+// A similarity fitted to fewer points than that is turned at random: the points round the joint serve instead.
+constexpr double fewest_points = 5;
+constexpr int few_points = 12;
 
 // What one training shape says of the new character, in the coordinates of the full surface.
 struct Opinion {
@@ -56,6 +61,22 @@ std::vector<ShapeMap> maps_of(const Detection& detection, const Execution& execu
   return maps;
 }
 
+// How many points share the weight, as if each had the same.
+double points_that_count(const Vector& weight) { return std::pow(weight.sum(), 2) / weight.squaredNorm(); }
+
+// Weights of the points round a place.
+Vector surroundings_of(const Vector3& place, const AtlasShape& shape) {
+  const Eigen::Index points = shape.positions.rows();
+  const Vector away = (shape.positions.rowwise() - place.transpose()).rowwise().norm();
+  std::vector<double> sorted(away.begin(), away.end());
+  const auto nth = sorted.begin() + std::min<std::ptrdiff_t>(few_points, points - 1);
+  std::nth_element(sorted.begin(), nth, sorted.end());
+  const double radius = std::max(*nth, 1e-9);
+  return (shape.samples.weight.head(points).cast<double>().array() *
+          (-(away.array() / radius).square()).exp())
+      .matrix();
+}
+
 Opinion opinion_of(const std::vector<SkeletonJoint>& skeleton, const AtlasShape& shape,
                    const std::vector<int32_t>& image, const MatrixX3& vertices) {
   const Eigen::Index points = shape.positions.rows();
@@ -80,6 +101,9 @@ Opinion opinion_of(const std::vector<SkeletonJoint>& skeleton, const AtlasShape&
     Vector near = ring + ring_softness * own;
     if (!(near.sum() > 1e-9)) continue;
     if (!(own.sum() > 1e-9)) own = near;
+    for (Vector* weight : {&near, &own})
+      if (points_that_count(*weight) < fewest_points)
+        *weight = surroundings_of(rig.bind[j]->topRightCorner<3, 1>(), shape);
     const Similarity round = fit_similarity(shape.positions, images, near);
     const Similarity part = fit_similarity(shape.positions, images, own);
     result.place.back() = round(rig.bind[j]->topRightCorner<3, 1>());
@@ -283,9 +307,10 @@ CharacterRig transfer_rig(const Detection& detection, const Execution& execution
     result.tip.push_back(to_caller(joints.tip[j]));
   }
   result.confidence = joints.confidence;
+  put_influences_by_parts(weights, placed, analysis, influences, result.rig, execution);
+  refine_details(detection, influences, result, execution);
   if (symmetric) make_bones_symmetric(result);
   result.rest = rest_pose(model, result.rig.joints);
-  put_influences_by_parts(weights, placed, analysis, influences, result.rig, execution);
   return result;
 }
 

@@ -270,9 +270,10 @@ RigMeasures rig_measures(const Detection& detection, const CharacterRig& rig) {
     result.map_residual = detection.map_residual, result.bulge_agreement = detection.bulge_agreement;
     result.runner_up = detection.runner_up;
   }
-  double doubt = 0;
-  for (const double confidence : rig.confidence) doubt += 1 - confidence;
-  result.joint_spread = share(doubt, static_cast<double>(rig.confidence.size()));
+  double doubt = 0, doubted = 0;
+  for (size_t j = 0; j < rig.confidence.size(); ++j)
+    if (rig.left_out.empty() || !rig.left_out[j]) doubt += 1 - rig.confidence[j], ++doubted;
+  result.joint_spread = share(doubt, doubted);
   const bool learned = is_learned(detection.model->skeleton, joints);
   const auto unsure = std::count(rig.confidence.begin(), rig.confidence.end(), 0.0);
   const auto guessed = learned ? guessed_joints(detection).size() : static_cast<size_t>(unsure);

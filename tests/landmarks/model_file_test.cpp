@@ -20,7 +20,8 @@
 #include "landmarks/small_model.h"
 
 using namespace focal;
-using focal_test::number_at, focal_test::sign, focal_test::small_model, focal_test::small_model_of_exemplars;
+using focal_test::number_at, focal_test::sign, focal_test::small_model, focal_test::small_model_of_exemplars,
+    focal_test::small_model_of_parts;
 
 namespace {
 
@@ -53,6 +54,7 @@ void check_equal(const TrainParams& a, const TrainParams& b) {
   CHECK(a.distance == b.distance);
   CHECK(a.bulge == b.bulge);
   CHECK(a.oriented == b.oriented);
+  CHECK(a.finds_heading == b.finds_heading);
 }
 
 void check_equal(const ConstellationSample& a, const ConstellationSample& b) {
@@ -95,6 +97,14 @@ void check_equal(const LandmarkModel& a, const LandmarkModel& b) {
   CHECK(a.calibration.far_error == b.calibration.far_error);
   CHECK(a.calibration.fit_centre == b.calibration.fit_centre);
   CHECK(a.calibration.fit_scale == b.calibration.fit_scale);
+  REQUIRE(a.details.size() == b.details.size());
+  for (size_t d = 0; d < a.details.size(); ++d) {
+    CHECK(a.details[d].joint == b.details[d].joint);
+    CHECK(a.details[d].joints == b.details[d].joints);
+    CHECK(a.details[d].reference == b.details[d].reference);
+    CHECK(a.details[d].start == b.details[d].start);
+    check_equal(*a.details[d].model, *b.details[d].model);
+  }
 }
 
 Status status_of(std::span<const std::byte> file) {
@@ -220,6 +230,17 @@ TEST_CASE("a model keeps its features and its training shapes one by one") {
   }
 }
 
+TEST_CASE("a model keeps the parts that are analysed once more, each with its own model") {
+  check_equal(parse_model(serialise(small_model_of_parts())), small_model_of_parts());
+  const Bytes golden = read_bytes(golden_path("model_1_3_parts.focal"));
+  REQUIRE(golden.size() > 0);
+  check_equal(parse_model(golden), small_model_of_parts());
+  LandmarkModel model = small_model_of_parts();  // parts have no parts
+  auto part = std::make_shared<LandmarkModel>(*model.details[0].model);
+  part->details = model.details, model.details[0].model = part;
+  CHECK(status_of(serialise(model)) == Status::invalid_file);
+}
+
 TEST_CASE("a model of a version before 1.2 has signatures only, and does not know whose its samples are") {
   for (const Preset preset : presets) {
     const LandmarkModel old = parse_model(read_bytes(golden_path(preset)));
@@ -237,8 +258,8 @@ TEST_CASE("a model of a version before 1.2 has signatures only, and does not kno
 
 // focal_tests --no-skip --test-case="write the golden models" makes them; only ever for a new format version.
 TEST_CASE("write the golden models" * doctest::skip()) {
-  const Bytes file = serialise(small_model_of_exemplars());
-  std::ofstream(golden_path("model_1_2_exemplars.focal"), std::ios::binary)
+  const Bytes file = serialise(small_model_of_parts());
+  std::ofstream(golden_path("model_1_3_parts.focal"), std::ios::binary)
       .write(reinterpret_cast<const char*>(file.data()), static_cast<std::streamsize>(file.size()));
 }
 

@@ -109,4 +109,16 @@ inline focal::LandmarkModel small_model_of_exemplars() {
   return model;
 }
 
+// Of a body with one part that is analysed once more by itself.
+inline focal::LandmarkModel small_model_of_parts() {
+  focal::LandmarkModel model = small_model(focal::Preset::default_preset);
+  model.skeleton = {{"arm", -1}, {"hand", 0}};
+  const auto part = std::make_shared<focal::LandmarkModel>(small_model_of_exemplars());
+  part->skeleton = model.skeleton;
+  part->params.finds_heading = false;
+  part->rising = part->facing = {}, part->facing_targets.resize(0, 6);
+  model.details.push_back({1, {0, 1}, {{0.5, -1, 0.25}, {0, 0.125, 0}}, -0.25, part});
+  return model;
+}
+
 }  // namespace focal_test

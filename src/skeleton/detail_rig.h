@@ -1,0 +1,12 @@
+// The second look at parts with many short bones: each is cut out of the mesh's own triangles, analysed by itself, and its joints
+// and weights take the place of those of the whole-body rig.
+#pragma once
+#include "skeleton/character_rig.h"
+
+namespace focal {
+
+// rig: of this detection, with the influences of the source vertices.
+void refine_details(const Detection& detection, int32_t influences, CharacterRig& rig,
+                    const Execution& execution);
+
+}  // namespace focal
