@@ -17,8 +17,9 @@ namespace {
 constexpr int32_t fewest_triangles = 40;  // of a region that shows more than the whole body's proxy does
 constexpr int32_t votes = 400;
 // What speaks for joints in a part: chains that are as separate as on the training shapes (1), surfaces that bulge alike, bones of
-// like lengths. Hands with fingers of other game packs have 0.44 and more, mittens up to 0.25.
-constexpr double bulge_share = 2, enough_support = 0.35, enough_beside_pair = 0.1;
+// like lengths. Hands with fingers of other game packs have 1.02 and more, mittens up to 1.01. Less
+// does where the part of the other side has enough.
+constexpr double separate_share = 2, bulge_share = 2, enough_support = 1.05, enough_beside_pair = 0.7;
 
 std::vector<char> part_of(const std::vector<Joint>& joints, int32_t root) {
   std::vector<char> result(joints.size(), 0);
@@ -116,7 +117,7 @@ double support_of(const Detection& found, const CharacterRig& rig, const DetailM
     if (detail.joints[i] == detail.joint &&
         (rig.rig.joints[i].bind.topRightCorner<3, 1>() - detail.reference[i]).norm() > farthest_root)
       return -std::numeric_limits<double>::infinity();
-  return median_separateness(found, rig) + bulge_share * found.bulge_agreement -
+  return separate_share * median_separateness(found, rig) + bulge_share * found.bulge_agreement -
          bone_strain(detail.reference, rig);
 }
 
