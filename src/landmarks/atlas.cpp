@@ -196,7 +196,8 @@ AtlasShape remember_shape(const SurfaceAnalysis& analysis,
                           const std::vector<std::optional<SurfacePoint>>& points, const RowMatrixf& fields,
                           float reach, const std::optional<ShapeRig>& rig) {
   const auto& surface = analysis.surface();
-  const auto& Phi = analysis.eigenfunctions;
+  const auto Phi = analysis.eigenfunctions.leftCols(
+      std::min<Eigen::Index>(analysis.eigenfunctions.cols(), MapParams().last));  // maps use no more
   const auto L = static_cast<Eigen::Index>(points.size());
   const int32_t proxy = analysis.params.proxy_vertices;
   const std::vector<int32_t> spread =

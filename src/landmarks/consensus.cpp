@@ -15,7 +15,7 @@ namespace {
 // All chosen by cross-validation on training splits of nine categories; the errors are flat round them.
 constexpr CarryParams thorough{.map = {.first = 20, .last = 120, .step = 8}, .most_alike = 0};
 constexpr CarryParams quick{.map = {.first = 20, .last = 120, .step = 20}, .spread = 600, .most_alike = 3};
-constexpr double alike_falloff = 30;       // a map counts exp(-falloff (residual - least residual))
+constexpr double alike_falloff = 30;  // a map counts exp(-falloff (residual - least residual))
 // Maps that fit this badly are as often wrong as right, which few landmarks or an unlike body cause; worse ones have no say.
 constexpr double doubtful_residual = 0.69, residual_width = 0.015;
 constexpr double outlier_distance = 0.03;  // of sqrt(area): marks farther from the consensus count less

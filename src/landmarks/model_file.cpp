@@ -10,6 +10,7 @@
 #include "descriptors/descriptor.h"
 #include "landmarks/detail_section.h"
 #include "landmarks/exemplar_section.h"
+#include "landmarks/feature_section.h"
 #include "landmarks/features.h"
 #include "landmarks/forest_file.h"
 #include "landmarks/method_section.h"
@@ -316,37 +317,6 @@ void read_skeleton(ByteReader in, LandmarkModel& model) {
     for (Eigen::Index i = 0; i < shape.positions.rows(); ++i)
       shape.positions.row(i) = read_place(in).transpose();
     shape.rig = read_shape_rig(in, static_cast<size_t>(shape.distances.rows()), joints);
-  }
-  in.expect_end();
-}
-
-// --- FEAT: what the forest knows of a point beside its signature
-
-void write_features(const LandmarkModel& model, ByteWriter& out) {
-  out.u8(model.params.bulge), out.u8(model.params.oriented);
-  if (!model.params.oriented) return;
-  out.u32(static_cast<uint32_t>(model.facing_targets.rows()));
-  if (!model.params.finds_heading) return;
-  for (const float value : model.facing_targets.reshaped<Eigen::RowMajor>()) out.u16(place_to_file(value));
-  out.u32(static_cast<uint32_t>(model.facing.trees.size()));
-  for (const RegressionForest* forest : {&model.rising, &model.facing})
-    write_forest(*forest, static_cast<int32_t>(model.facing_targets.rows()), out);
-}
-
-void read_features(ByteReader in, LandmarkModel& model) {
-  model.params.bulge = in.u8("bulge") != 0, model.params.oriented = in.u8("orientation") != 0;
-  if (model.params.oriented) {
-    constexpr int32_t columns = 6;
-    const int32_t rows = in.count("sample count", columns * 16);
-    model.facing_targets.resize(rows, columns);
-    for (float& value : model.facing_targets.reshaped<Eigen::RowMajor>())
-      value = place_from_file(in.u16("place"));
-    model.params.finds_heading = rows > 0;
-    if (rows > 0) {
-      const int32_t trees = in.i32("tree count", 1, most);
-      model.rising = read_forest(in, LeafKind::samples, trees, rows, invariant_feature_count(model.params));
-      model.facing = read_forest(in, LeafKind::samples, trees, rows, upright_feature_count(model.params));
-    }
   }
   in.expect_end();
 }

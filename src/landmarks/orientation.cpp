@@ -109,4 +109,37 @@ std::vector<Heading> headings_to_try(const LandmarkModel& model, const SurfaceAn
   return result;
 }
 
+void learn_orientation(LandmarkModel& model, const std::vector<const SurfaceAnalysis*>& meshes,
+                       const Execution& execution) {
+  constexpr int32_t most = 20000;
+  const int32_t share = std::max<int32_t>(most / static_cast<int32_t>(meshes.size()), 50);
+  const auto count_of = [&](const SurfaceAnalysis* mesh) {
+    return std::min(share, static_cast<int32_t>(mesh->samples.size()));
+  };
+  Eigen::Index rows = 0;
+  for (const SurfaceAnalysis* mesh : meshes) rows += count_of(mesh);
+  RowMatrixf invariant(rows, invariant_feature_count(model.params)),
+      upright(rows, upright_feature_count(model.params));
+  model.facing_targets.resize(rows, 6);
+  Eigen::Index row = 0;
+  for (const SurfaceAnalysis* mesh : meshes) {
+    const int32_t count = count_of(mesh);
+    const RowMatrixf placed = placed_features(*mesh, count);
+    invariant.middleRows(row, count) = invariant_features(*mesh, count);
+    upright.middleRows(row, count) = upright_features(*mesh, placed);
+    model.facing_targets.middleRows(row, count) =
+        placed.unaryExpr([](float value) { return place_from_file(place_to_file(value)); });
+    row += count;
+  }
+  const ForestParams forest{.tree_count = 12,
+                            .min_leaf_samples = 8,
+                            .min_split_samples = 16,
+                            .components_per_split = 8,
+                            .seed = model.params.seed + 1};
+  model.rising = grow_forest(bin_descriptors(invariant, execution), model.facing_targets, forest, execution);
+  RowMatrixf forwards = model.facing_targets;  // front and back are all that it has to learn
+  for (const Eigen::Index other : {0, 1, 3, 4}) forwards.col(other).setZero();
+  model.facing = grow_forest(bin_descriptors(upright, execution), forwards, forest, execution);
+}
+
 }  // namespace focal

@@ -19,4 +19,8 @@ struct Heading {
 std::vector<Heading> headings_to_try(const LandmarkModel& model, const SurfaceAnalysis& analysis,
                                      DetectParams::Orientation orientation);
 
+// Learns the two forests from a few samples of each mesh.
+void learn_orientation(LandmarkModel& model, const std::vector<const SurfaceAnalysis*>& meshes,
+                       const Execution& execution);
+
 }  // namespace focal

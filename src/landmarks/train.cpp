@@ -11,6 +11,7 @@
 #include "landmarks/confidence.h"
 #include "landmarks/features.h"
 #include "landmarks/model_parts.h"
+#include "landmarks/orientation.h"
 #include "landmarks/paper.h"
 #include "landmarks/placement.h"
 #include "landmarks/surface_analysis.h"
@@ -131,40 +132,6 @@ LearnedShape learn_shape(const MarkedShape& shape, const SurfaceAnalysis& analys
   return result;
 }
 
-// A few of each lesson's samples teach how a body faces.
-void learn_facing(LandmarkModel& model, const std::vector<const Lesson*>& lessons,
-                  const Execution& execution) {
-  constexpr int32_t most = 20000;
-  const int32_t share = std::max<int32_t>(most / static_cast<int32_t>(lessons.size()), 50);
-  const auto count_of = [&](const Lesson* lesson) {
-    return std::min(share, static_cast<int32_t>(lesson->analysis.samples.size()));
-  };
-  Eigen::Index rows = 0;
-  for (const Lesson* lesson : lessons) rows += count_of(lesson);
-  RowMatrixf invariant(rows, invariant_feature_count(model.params)),
-      upright(rows, upright_feature_count(model.params));
-  model.facing_targets.resize(rows, 6);
-  Eigen::Index row = 0;
-  for (const Lesson* lesson : lessons) {
-    const int32_t count = count_of(lesson);
-    const RowMatrixf placed = placed_features(lesson->analysis, count);
-    invariant.middleRows(row, count) = invariant_features(lesson->analysis, count);
-    upright.middleRows(row, count) = upright_features(lesson->analysis, placed);
-    model.facing_targets.middleRows(row, count) =
-        placed.unaryExpr([](float value) { return place_from_file(place_to_file(value)); });
-    row += count;
-  }
-  const ForestParams forest{.tree_count = 12,
-                            .min_leaf_samples = 8,
-                            .min_split_samples = 16,
-                            .components_per_split = 8,
-                            .seed = model.params.seed + 1};
-  model.rising = grow_forest(bin_descriptors(invariant, execution), model.facing_targets, forest, execution);
-  RowMatrixf forwards = model.facing_targets;  // front and back are all that it has to learn
-  for (const Eigen::Index other : {0, 1, 3, 4}) forwards.col(other).setZero();
-  model.facing = grow_forest(bin_descriptors(upright, execution), forwards, forest, execution);
-}
-
 // Fills the parts of a `default` model that the given shapes teach: forest, targets, reach from all their copies;
 // constellation and atlas from the whole ones, which are what a category looks like.
 void learn_parts(LandmarkModel& model, const std::vector<const Lessons*>& shapes,
@@ -221,7 +188,11 @@ void learn_parts(LandmarkModel& model, const std::vector<const Lessons*>& shapes
                             .min_split_samples = 2 * model.params.min_leaf_samples,
                             .components_per_split = model.params.components_per_split,
                             .seed = model.params.seed};
-  if (model.params.oriented && model.params.finds_heading) learn_facing(model, lessons, execution);
+  if (model.params.oriented && model.params.finds_heading) {
+    std::vector<const SurfaceAnalysis*> meshes;
+    for (const Lesson* lesson : lessons) meshes.push_back(&lesson->analysis);
+    learn_orientation(model, meshes, execution);
+  }
   model.forests.assign(1, grow_forest(bin_descriptors(descriptors, execution), targets, forest, execution));
 }
 

@@ -21,8 +21,8 @@ struct RigMeasures {
   double runner_up = unknown;        // how much more another configuration costs; infinite: none came near
   double joint_spread = unknown;     // mean over the joints of 1 - confidence
   double absent_share = unknown;     // joints without a found landmark
-  double copy_distance =
-      unknown;  // of sqrt(area): between the mesh and a training character that the joints pose
+  double uncovered =
+      unknown;  // of sqrt(area): how far a twentieth of the mesh lies, at least, from a training character that the joints pose
   // What needs no learning: a skeleton with any of these is crumpled.
   double outside_share = 0;    // joints that move vertices, far outside the body's box
   double long_share = 0;       // bones too long for any body

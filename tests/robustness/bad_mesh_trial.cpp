@@ -59,9 +59,10 @@ focal_mesh_info info_of(const focal_mesh* mesh) {
   insist(info.mean_edge_length > 0 && std::isfinite(info.mean_edge_length), "mean edge length");
   insist(info.surface_area > 0 && std::isfinite(info.surface_area), "surface area");
   insist(info.component_count > 0 && info.surface_triangle_count > 0, "counts");
-  insist(
-      info.surface_triangle_count + info.invalid_triangles + info.degenerate_triangles == info.triangle_count,
-      "counts of triangles");
+  insist(info.surface_triangle_count + info.invalid_triangles + info.degenerate_triangles +
+                 info.left_out_triangles ==
+             info.triangle_count,
+         "counts of triangles");
   return info;
 }
 

@@ -57,12 +57,18 @@ TEST_CASE("nothing measured, nothing wrong") {
 TEST_CASE("the worse a measure, the lower the quality; all bad: failed, with the worst doubt first") {
   RigMeasures all;
   const std::vector<std::pair<double RigMeasures::*, std::vector<double>>> worse = {
-      {&RigMeasures::category_fit, {1, 0.15, 0}},      {&RigMeasures::map_residual, {0.1, 0.7, 2}},
-      {&RigMeasures::bulge_agreement, {0.8, 0, -0.5}}, {&RigMeasures::runner_up, {1e9, 1, 0}},
-      {&RigMeasures::joint_spread, {0, 0.6, 1}},       {&RigMeasures::absent_share, {0, 0.4, 1}},
-      {&RigMeasures::copy_distance, {0, 0.1, 1}},      {&RigMeasures::outside_share, {0, 0.05, 1}},
-      {&RigMeasures::long_share, {0, 0.04, 1}},        {&RigMeasures::collapsed_share, {0, 0.1, 1}},
-      {&RigMeasures::merged_share, {0, 0.1, 1}},       {&RigMeasures::crossed_share, {0, 0.2, 1}},
+      {&RigMeasures::category_fit, {1, 0.1, 0}},
+      {&RigMeasures::map_residual, {0.1, 0.7, 2}},
+      {&RigMeasures::bulge_agreement, {0.8, 0.1, -0.5}},
+      {&RigMeasures::runner_up, {1e9, 1, 0}},
+      {&RigMeasures::joint_spread, {0, 0.6, 1}},
+      {&RigMeasures::absent_share, {0, 0.4, 1}},
+      {&RigMeasures::uncovered, {0, 0.1, 1}},
+      {&RigMeasures::outside_share, {0, 0.05, 1}},
+      {&RigMeasures::long_share, {0, 0.04, 1}},
+      {&RigMeasures::collapsed_share, {0, 0.1, 1}},
+      {&RigMeasures::merged_share, {0, 0.1, 1}},
+      {&RigMeasures::crossed_share, {0, 0.2, 1}},
       {&RigMeasures::bone_strain, {0, 0.5, 5}}};
   for (const auto& [measure, values] : worse) {
     RigMeasures one;
@@ -87,12 +93,12 @@ TEST_CASE("a humanoid's rig is measured and not refused") {
   const RigMeasures found = measures(other().rig);
   CAPTURE(found.joint_spread);
   CAPTURE(found.bone_strain);
-  CAPTURE(found.copy_distance);
+  CAPTURE(found.uncovered);
   CHECK(verdict_of(found) != Verdict::failed);
   CHECK(found.absent_share == 0);
   CHECK(found.map_residual > 0);
-  CHECK(found.copy_distance > 0);
-  CHECK(found.copy_distance < 0.1);
+  CHECK(found.uncovered > 0);
+  CHECK(found.uncovered < 0.1);
   CHECK(found.bone_strain < 0.4);
   for (const double share : {found.outside_share, found.long_share, found.collapsed_share, found.merged_share,
                              found.crossed_share})
