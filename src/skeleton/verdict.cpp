@@ -47,7 +47,7 @@ constexpr Criterion criteria[] = {
     {&RigMeasures::merged_share, 0, 0.25, 0.2, "joints of the left and the right side lie in one place"},
     {&RigMeasures::crossed_share, 0.05, 0.3, 0.2, "bones of one side lead over to the other"}};
 // Of the 31 rigs above the first, 30 are sound; no rig below the second has 90 % of its joints within 5 % of the height.
-constexpr double good_quality = 0.6, failed_quality = 0.15;
+constexpr double good_quality = 0.6, failed_quality = 0.3;
 constexpr double doubted_factor = 0.85;
 
 // Lengths, of the longest side of the body's box.
