@@ -11,7 +11,7 @@ namespace focal {
 namespace {
 
 // Fitted on 124 rigs of real characters and animals (docs/accuracy.md): 41 sound, 39 of another category than the model's, the rest turned or
-// tangled. What tells them apart together, as a logistic regression: the badness of each measure rises from 0 at `fine` to 1 at `bad`
+// tangled. What separates them together, as a logistic regression: the badness of each measure rises from 0 at `fine` to 1 at `bad`
 // and takes `weight` from the logarithm of the odds. From `doubted` on a sentence says so.
 struct Indication {
   double RigMeasures::*measure;
