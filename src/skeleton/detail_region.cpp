@@ -15,13 +15,6 @@ constexpr double longest_bone =
     0.075;  // median beyond the root, of sqrt(area): four edges of a proxy of 3,500 vertices
 constexpr double part_weight = 0.5;  // a vertex with less from the part's joints belongs to another limb
 
-std::vector<char> below(const std::vector<SkeletonJoint>& skeleton, int32_t root) {
-  std::vector<char> result(skeleton.size(), 0);
-  for (size_t j = 0; j < skeleton.size(); ++j)
-    result[j] = static_cast<int32_t>(j) == root || (skeleton[j].parent >= 0 && result[skeleton[j].parent]);
-  return result;
-}
-
 std::vector<std::optional<Vector3>> places_in(const std::vector<SkeletonJoint>& skeleton, const Rig& rig) {
   std::map<std::string, Vector3> place;
   for (const Joint& joint : rig.joints) place.emplace(joint.name, joint.bind.topRightCorner<3, 1>());
@@ -126,7 +119,7 @@ std::vector<int32_t> detail_joints(const std::vector<SkeletonJoint>& skeleton,
   for (int32_t j = count; j-- > 0;) {
     const int32_t p = skeleton[j].parent;
     if (!has_detail[j] && children[j] >= 2) {
-      const std::vector<char> is_below = below(skeleton, j);
+      const std::vector<char> is_below = at_or_below(skeleton, j);
       const double length = bone_length(skeleton, is_below, j, characters);
       if (std::count(is_below.begin(), is_below.end(), 1) > least_joints && length > 0 &&
           length < longest_bone)
@@ -139,7 +132,7 @@ std::vector<int32_t> detail_joints(const std::vector<SkeletonJoint>& skeleton,
 }
 
 std::vector<int32_t> joints_of_part(const std::vector<SkeletonJoint>& skeleton, int32_t root) {
-  const std::vector<char> is_below = below(skeleton, root);
+  const std::vector<char> is_below = at_or_below(skeleton, root);
   std::vector<int32_t> result;
   if (skeleton[root].parent >= 0) result.push_back(skeleton[root].parent);
   for (size_t j = 0; j < skeleton.size(); ++j)

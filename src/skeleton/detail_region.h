@@ -17,6 +17,15 @@ struct SizedRig {
 std::vector<int32_t> detail_joints(const std::vector<SkeletonJoint>& skeleton,
                                    const std::vector<SizedRig>& characters);
 
+// Per joint: whether it is the root or hangs on it. Parents come before their children.
+template <class AnyJoint>
+std::vector<char> at_or_below(const std::vector<AnyJoint>& joints, int32_t root) {
+  std::vector<char> result(joints.size(), 0);
+  for (size_t j = 0; j < joints.size(); ++j)
+    result[j] = static_cast<int32_t>(j) == root || (joints[j].parent >= 0 && result[joints[j].parent]);
+  return result;
+}
+
 // The joints of such a part: its root's parent, where it has one, its root, and all that hang on it, in the skeleton's order.
 std::vector<int32_t> joints_of_part(const std::vector<SkeletonJoint>& skeleton, int32_t root);
 

@@ -21,13 +21,6 @@ constexpr int32_t votes = 400;
 // does where the part of the other side has enough.
 constexpr double separate_share = 2, bulge_share = 2, enough_support = 1.05, enough_beside_pair = 0.7;
 
-std::vector<char> part_of(const std::vector<Joint>& joints, int32_t root) {
-  std::vector<char> result(joints.size(), 0);
-  for (size_t j = 0; j < joints.size(); ++j)
-    result[j] = static_cast<int32_t>(j) == root || (joints[j].parent >= 0 && result[joints[j].parent]);
-  return result;
-}
-
 // The frame in which most joints of the part lie as in the mean of the training shapes: some of them may lie anywhere.
 Similarity found_frame(const DetailModel& detail, const CharacterRig& rig,
                        const std::vector<char>& is_below) {
@@ -147,13 +140,16 @@ Look look_at(const DetailModel& detail, const Detection& detection, const Charac
 // takes them all.
 void share_weights(const DetailModel& detail, const std::vector<char>& is_below, int32_t influences,
                    size_t source, const VertexInfluences* own, Rig& rig) {
-  Eigen::RowVectorXf weights = Eigen::RowVectorXf::Zero(static_cast<Eigen::Index>(rig.joints.size()));
-  float of_part = 0, found = 0;
-  const auto take = [&](const VertexInfluences& all) {
-    for (const Influence& one : all) (is_below[one.joint] ? of_part : weights[one.joint]) += one.weight;
+  const auto influences_of = [&](const auto& use) {
+    for (const Influence& one : rig.influences[source]) use(one);
+    if (rig.more.empty()) return;
+    for (const Influence& one : rig.more[source]) use(one);
   };
-  take(rig.influences[source]);
-  if (!rig.more.empty()) take(rig.more[source]);
+  float of_part = 0, found = 0;
+  influences_of([&](const Influence& one) { of_part += is_below[one.joint] ? one.weight : 0; });
+  if (!(of_part > 0)) return;  // most vertices of a body
+  Eigen::RowVectorXf weights = Eigen::RowVectorXf::Zero(static_cast<Eigen::Index>(rig.joints.size()));
+  influences_of([&](const Influence& one) { weights[one.joint] += is_below[one.joint] ? 0 : one.weight; });
   if (own)
     for (const Influence& one : *own)
       if (is_below[detail.joints[one.joint]]) found += one.weight;
@@ -208,7 +204,7 @@ void leave_out(const Look& look, const DetailModel& detail, const std::vector<ch
 Look best_look(const DetailModel& detail, const Detection& detection, int32_t influences,
                const CharacterRig& rig, const Execution& execution) {
   const auto& joints = rig.rig.joints;
-  const std::vector<char> is_below = part_of(joints, detail.joint);
+  const std::vector<char> is_below = at_or_below(joints, detail.joint);
   std::vector<char> is_of_part = is_below;
   if (const int32_t p = joints[detail.joint].parent; p >= 0) is_of_part[p] = 1;
   const Similarity frame = rounded(found_frame(detail, rig, is_below)),
@@ -250,7 +246,7 @@ void refine_details(const Detection& detection, int32_t influences, CharacterRig
   }
   const std::vector<char> is_there = are_there(details, looks, rig.rig.joints);
   for (size_t d = 0; d < details.size(); ++d) {
-    const std::vector<char> is_below = part_of(rig.rig.joints, details[d].joint);
+    const std::vector<char> is_below = at_or_below(rig.rig.joints, details[d].joint);
     (is_there[d] ? take_over : leave_out)(looks[d], details[d], is_below, influences, rig);
   }
 }
