@@ -4,6 +4,7 @@ include(CheckCXXCompilerFlag)
 
 set(FOCAL_ARCH "x86-64-v2" CACHE STRING "Oldest x86-64 processor level to run on (-march); empty: the compiler's own")
 set(FOCAL_SANITIZE "" CACHE STRING "Sanitizers to build with: address,undefined or thread; empty: none")
+set(FOCAL_SANITIZE_SKIP "" CACHE STRING "Checks of these sanitizers to leave out, such as null,alignment; empty: none")
 option(FOCAL_COVERAGE "Count the branches taken in the readers and the C interface (tests/coverage)" OFF)
 option(FOCAL_FUZZ "Fuzz targets of libFuzzer's (needs clang; with FOCAL_SANITIZE they find more)" OFF)
 option(FOCAL_WERROR "Treat warnings as errors" OFF)
@@ -22,6 +23,9 @@ endif()
 add_library(focal_sanitize INTERFACE)  # of programs in C too, that call a library that is watched
 if(FOCAL_SANITIZE)
   set(sanitize -fsanitize=${FOCAL_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  if(FOCAL_SANITIZE_SKIP)
+    list(APPEND sanitize -fno-sanitize=${FOCAL_SANITIZE_SKIP})
+  endif()
   target_compile_options(focal_sanitize INTERFACE ${sanitize})
   target_compile_definitions(focal_sanitize INTERFACE FOCAL_SANITIZED)  # tests do less, all is many times slower
   target_link_options(focal_sanitize INTERFACE ${sanitize} $<$<CXX_COMPILER_ID:Clang>:-fsanitize-link-c++-runtime>)

@@ -40,8 +40,27 @@ void NearestVertex::search(int32_t begin, int32_t end, int axis, const Vector3& 
 }
 
 std::pair<int32_t, double> NearestVertex::nearest(const Vector3& query) const {
-  std::pair<int32_t, double> best{-1, std::numeric_limits<double>::infinity()};
+  return nearest(query, {-1, std::numeric_limits<double>::infinity()});
+}
+
+std::pair<int32_t, double> NearestVertex::nearest(const Vector3& query,
+                                                  std::pair<int32_t, double> best) const {
   search(0, static_cast<int32_t>(order_.size()), 0, query, best);
+  return best;
+}
+
+void NearestOfGrowingSet::add(std::vector<int32_t> numbers) {
+  while (!trees_.empty() && trees_.back().subset().size() <= numbers.size()) {
+    const std::vector<int32_t>& last = trees_.back().subset();
+    numbers.insert(numbers.end(), last.begin(), last.end());
+    trees_.pop_back();
+  }
+  trees_.emplace_back(*positions_, std::move(numbers));
+}
+
+std::pair<int32_t, double> NearestOfGrowingSet::nearest(const Vector3& query) const {
+  std::pair<int32_t, double> best{-1, std::numeric_limits<double>::infinity()};
+  for (const NearestVertex& tree : trees_) best = tree.nearest(query, best);
   return best;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
 
@@ -283,37 +284,43 @@ void SolidGrid::join_parts(int32_t& bridged, int32_t& left_out) {
   std::vector<int64_t> sizes;
   const std::vector<int32_t> part = label_parts(sizes);
   if (sizes.size() < 2) return;
-  std::vector<std::vector<int64_t>> rim_cells(sizes.size());  // of each part
+  std::vector<std::vector<int64_t>> cells(sizes.size());  // of each part
   for (int64_t i = 0; i < cell_count(); ++i)
-    if (part[i] >= 0 && corners(i) != 255) rim_cells[part[i]].push_back(i);
+    if (part[i] >= 0) cells[part[i]].push_back(i);
   std::vector<int32_t> order(sizes.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](int32_t a, int32_t b) { return sizes[a] > sizes[b]; });
   const double most = far * std::max({size_[0], size_[1], size_[2]});
-  // Positions of all cells on a rim, in cells; the tree holds those of the parts joined so far.
-  std::vector<int64_t> joined = rim_cells[order[0]];
+  std::vector<int64_t> rim;  // cells at the surface, part by part in that order
+  std::vector<int32_t> start{0};
+  for (const int32_t p : order) {
+    std::copy_if(cells[p].begin(), cells[p].end(), std::back_inserter(rim),
+                 [&](int64_t i) { return corners(i) != 255; });
+    start.push_back(static_cast<int32_t>(rim.size()));
+  }
+  MatrixX3 places(static_cast<Eigen::Index>(rim.size()), 3);  // in cells
+  for (size_t k = 0; k < rim.size(); ++k) {
+    const auto at = place(rim[k]);
+    places.row(static_cast<Eigen::Index>(k)) << at[0], at[1], at[2];
+  }
+  NearestOfGrowingSet joined(places);
+  const auto join = [&](size_t o) {
+    std::vector<int32_t> own(start[o + 1] - start[o]);
+    std::iota(own.begin(), own.end(), start[o]);
+    joined.add(std::move(own));
+  };
+  join(0);
   for (size_t o = 1; o < order.size(); ++o) {
-    const auto& own = rim_cells[order[o]];
-    MatrixX3 places(static_cast<Eigen::Index>(joined.size()), 3);
-    for (size_t k = 0; k < joined.size(); ++k) {
-      const auto at = place(joined[k]);
-      places.row(static_cast<Eigen::Index>(k)) << at[0], at[1], at[2];
-    }
-    std::vector<int32_t> all(joined.size());
-    std::iota(all.begin(), all.end(), 0);
-    const NearestVertex search(places, std::move(all));
     std::pair<int64_t, int64_t> link;
     double least = std::numeric_limits<double>::infinity();
-    for (const int64_t i : own) {
-      const auto at = place(i);
-      const auto [other, squared] = search.nearest({at[0] + 0.0, at[1] + 0.0, at[2] + 0.0});
-      if (squared < least) least = squared, link = {i, joined[other]};
+    for (int32_t k = start[o]; k < start[o + 1]; ++k) {
+      const auto [other, squared] = joined.nearest(places.row(k));
+      if (squared < least) least = squared, link = {rim[k], rim[other]};
     }
     if (std::sqrt(least) > most &&
         static_cast<double>(sizes[order[o]]) < small * static_cast<double>(sizes[order[0]])) {
       ++left_out;
-      for (int64_t i = 0; i < cell_count(); ++i)
-        if (part[i] == order[o]) solid_[i] = 0;
+      for (const int64_t i : cells[order[o]]) solid_[i] = 0;
       continue;
     }
     ++bridged;
@@ -329,7 +336,7 @@ void SolidGrid::join_parts(int32_t& bridged, int32_t& left_out) {
           for (int32_t dx = -radius; dx <= radius; ++dx)
             solid_[index(at[0] + dx, at[1] + dy, at[2] + dz)] = 1;
     }
-    joined.insert(joined.end(), own.begin(), own.end());
+    join(o);
   }
 }
 

@@ -138,7 +138,6 @@ class Trier {
 
 // A new process goes on behind every mesh that ends one.
 void run_all(const Trier& trier, const std::vector<Trial>& trials, Record* records) {
-  constexpr unsigned longest = 20;  // seconds
   auto* next = static_cast<size_t*>(
       mmap(nullptr, sizeof(size_t), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0));
   while (*next < trials.size()) {
@@ -146,7 +145,7 @@ void run_all(const Trier& trier, const std::vector<Trial>& trials, Record* recor
     if (child == 0) {
       while (*next < trials.size()) {
         const size_t i = (*next)++;
-        alarm(longest);
+        alarm(FOCAL_LONGEST_SECONDS);
         trier.run(trials[i], records[i]);
       }
       _exit(0);
