@@ -155,9 +155,32 @@ std::vector<JointAnimation> animations_for(const CharacterRig& rig, const Prepar
   return result;
 }
 
+// The skeleton of the mesh's own file, if it has one that can be read: what is wrong with it is no reason not to give it another.
+std::optional<Rig> former_rig(const MeshObject& mesh) {
+  if (!mesh.document) return std::nullopt;
+  try {
+    return mesh.document->rig(mesh.primitives);
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
+
+// Clips of the mesh's own file that move a skeleton which no mesh follows any more.
+std::vector<std::string> clips_of_former_skeleton(const MeshObject& mesh, const std::vector<Joint>& joints) {
+  const auto former = former_rig(mesh);
+  std::vector<std::string> names;
+  if (!former || names_of(former->joints) == names_of(joints)) return names;  // rigged by this model before
+  try {
+    for (const Clip& clip : mesh.document->animations().clips)
+      if (moves_joint(clip, former->joints)) names.push_back(clip.name);
+  } catch (const Error&) {  // malformed ones stay as they are, too
+  }
+  return names;
+}
+
 // The joints of the mesh's own file that the new ones stand for.
 std::vector<ReplacedJoint> replaced_joints(const MeshObject& mesh, const std::vector<Joint>& joints) {
-  const auto former = mesh.document ? mesh.document->rig(mesh.primitives) : std::nullopt;
+  const auto former = former_rig(mesh);
   if (!former) return {};
   const JointMatch match = match_joints(names_of(joints), names_of(former->joints));
   std::vector<ReplacedJoint> result(joints.size());
@@ -229,6 +252,11 @@ focal_status focal_skeleton_create(const focal_detection* detection, const focal
           animations_for(object->rig, *object->detection->mesh->mesh, *character, object->rig.warnings);
     object->in_rest_pose = how.rest_pose != 0;
     rename_joints(how, object->rig);
+    const auto idle = clips_of_former_skeleton(*object->detection->mesh, object->rig.rig.joints);
+    if (!idle.empty())
+      object->rig.warnings.push_back(
+          "animations of the file move its former skeleton, which the mesh does not follow any more: " +
+          listed(idle) + "; --animations (animations) plays them on the new one");
     judge(*object, measures);
     object->detection->model->context->report_warnings(object->rig.warnings);
     *out_skeleton = publish(object);
