@@ -11,6 +11,7 @@ from . import _abi
 from ._arrays import empty, result
 from ._handle import Handle
 from ._library import call
+from ._mesh import placed
 from ._values import as_dict, choice, fill, floats, new, path_text, text
 
 
@@ -30,6 +31,7 @@ class Skeleton(Handle):
     """Joints and skin weights, from Detection.rig."""
 
     _kind = "skeleton"
+    _origin = (0.0, 0.0, 0.0)  # of the mesh
 
     def __init__(self) -> None:
         raise TypeError("make a Skeleton with Detection.rig")
@@ -43,7 +45,8 @@ class Skeleton(Handle):
             for index in range(count):
                 call("focal_skeleton_get_joint", handle, index, ctypes.byref(struct))
                 found.append(Joint(struct.name.decode("utf-8", "replace"), struct.parent, struct.confidence,
-                                   floats(struct.position), floats(struct.rotation), floats(struct.tip)))
+                                   placed(struct.position, self._origin), floats(struct.rotation),
+                                   placed(struct.tip, self._origin)))
         return found
 
     @property
