@@ -215,8 +215,8 @@ TEST_CASE("batch: a verdict a file and their count") {
 TEST_CASE("train on rigs: what is odd about the teachers is said, with their files") {
   CHECK(humanoids().trained["warnings"] == json::array());
   const ScratchFolder scratch;
-  const std::string sided = edited(scratch, humanoids().teacher(), "sided.glb", "\"left", "\"Left");
-  const std::string other = edited(scratch, sided, "other.glb", "\"right", "\"Right");
+  const std::string sided = edited(scratch, humanoids().teacher(), "sided.glb", "\"left", "\"qrst");
+  const std::string other = edited(scratch, sided, "other.glb", "\"right", "\"uvwxy");
   check_fails("train --rigs " + humanoids().teacher() + " " + other + " -o " + (scratch / "a.focal"),
               "2 (other.glb) share");
   CHECK_FALSE(fs::exists(scratch / "a.focal"));
