@@ -199,7 +199,7 @@ TEST_CASE("batch: a verdict a file and their count") {
   const Run run = focal(line + " --json");
   CHECK(run.status == 1);
   const json report = json::parse(run.out);
-  CHECK(keys_of(report) == Keys{"meshes", "done", "kept", "failed", "verdicts"});
+  CHECK(keys_of(report) == Keys{"meshes", "done", "kept", "failed", "skipped", "verdicts"});
   CHECK(report["failed"] == 1);
   CHECK(report["verdicts"]["failed"] == 1);
   CHECK(report["verdicts"]["good"].get<int>() + report["verdicts"]["check"].get<int>() == 1);
