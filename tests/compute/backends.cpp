@@ -16,6 +16,7 @@
 #include "geodesics/heat_method.h"
 #include "landmarks/backend_surface.h"
 #include "landmarks/leaf_votes.h"
+#include "landmarks/surface_analysis.h"
 #include "surfaces.h"
 #include "vote/peaks.h"
 
