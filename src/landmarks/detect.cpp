@@ -206,6 +206,7 @@ Detection detect(std::shared_ptr<const LandmarkModel> model, const SurfaceAnalys
   result.exemplars = placement.exemplars;
   result.maps = std::move(placement.maps), result.map_residual = placement.map_residual;
   result.bulge_agreement = placement.bulge_agreement, result.runner_up = placement.runner_up;
+  result.frame = placement.frame;
   result.category_fit = judgement.category_fit;
   if (const char* warning = analysis.metric->warning()) result.warnings.emplace_back(warning);
   if (!paper && !analysis.proxy.full->is_oriented)

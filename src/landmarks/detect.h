@@ -49,6 +49,7 @@ struct Detection {
   std::vector<ShapeMap> maps;                   // from training shapes, with quality `best`
   float map_residual = 0, bulge_agreement = 0;  // see Placement
   double runner_up = 0;
+  Matrix3 frame = Matrix3::Identity();  // likewise
   RowMatrixf votes;  // landmarks x vertices of proxy.coarse->surface, each row's largest is 1; may be empty
   double category_fit = 0;            // 0..1
   std::vector<std::string> warnings;  // beside those of the mesh

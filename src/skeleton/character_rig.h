@@ -1,5 +1,6 @@
 // A skeleton and skin weights for one detected mesh: what the ways of making them have in common.
 #pragma once
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,10 @@ struct CharacterRig {
   // of its own length, its roots where they are. Empty: none is known.
   std::vector<Matrix4> rest;
   std::vector<double> confidence;   // per joint 0..1
+  // Of a training character that was fitted to the body: its distance from it, of sqrt(area), and the share by which one that faces
+  // the other way lies farther off, infinite: none was tried. NaN: none was fitted.
+  double surface_distance = std::numeric_limits<double>::quiet_NaN();
+  double heading_margin = std::numeric_limits<double>::quiet_NaN();
   std::vector<char> left_out = {};  // per joint: the mesh has no such part, nothing is moved; empty: none is
   std::vector<std::string> warnings;
 };

@@ -9,6 +9,7 @@
 #include "landmarks/atlas.h"
 #include "mesh/section.h"
 #include "mesh/similarity.h"
+#include "skeleton/body_fit.h"
 #include "skeleton/detail_rig.h"
 #include "skeleton/part_weights.h"
 #include "skeleton/rig_landmarks.h"
@@ -263,13 +264,35 @@ PlacedSkeleton on_analysed(const std::vector<SkeletonJoint>& skeleton, const Joi
   return result;
 }
 
+// What the fits say beside the maps, which count as much as the fits leave them.
+void add_fits(const BodyFit& fit, const LandmarkModel& model, const Proxy& proxy,
+              std::vector<Opinion>& opinions) {
+  const double scale = proxy.is_full() ? 1 : proxy.coarse->scale;
+  const Vector3 centre = proxy.is_full() ? Vector3(Vector3::Zero()) : proxy.coarse->centre;
+  double sum = 0;
+  for (const Opinion& one : opinions) sum += one.weight;
+  for (Opinion& one : opinions) one.weight *= fit.start_share / sum;
+  for (const FittedShape& shape : fit.shapes) {
+    Opinion& one = opinions.emplace_back();
+    one.weight = shape.share;
+    for (size_t j = 0; j < shape.tip.size(); ++j) {
+      const auto& bind = model.atlas[shape.shape].rig->bind[j];
+      one.place.emplace_back();
+      if (bind) one.place.back() = centre + scale * shape.posture.place[j];
+      one.tip.push_back(centre + scale * shape.tip[j]);
+      one.turn.push_back(bind ? Matrix3(shape.posture.turn[j] * bind->topLeftCorner<3, 3>())
+                              : Matrix3(Matrix3::Identity()));
+    }
+  }
+}
+
 }  // namespace
 
 CharacterRig transfer_rig(const Detection& detection, const Execution& execution, bool symmetric,
                           int32_t influences) {
   const LandmarkModel& model = *detection.model;
   execution.begin_stage("maps", 0, 0.7);
-  const std::vector<ShapeMap> maps = maps_of(detection, execution);
+  std::vector<ShapeMap> maps = maps_of(detection, execution);
   if (maps.empty())
     throw Error(Status::invalid_argument, "none of the model's shapes has a rig",
                 "train with rigged characters");
@@ -290,7 +313,16 @@ CharacterRig transfer_rig(const Detection& detection, const Execution& execution
     opinions[m].weight = weight[m];
   });
   CharacterRig result;
+  std::vector<std::string> said_again;
+  const Joints mapped = agreed_joints(model.skeleton, opinions, said_again);
+  const BodyFit fit =
+      fit_to_body(detection, maps, on_analysed(model.skeleton, mapped, analysis.proxy), execution);
+  add_fits(fit, model, analysis.proxy, opinions);
+  result.surface_distance = fit.shapes[0].residual, result.heading_margin = fit.heading_margin;
   Joints joints = agreed_joints(model.skeleton, opinions, result.warnings);
+  maps = maps_of_fits(fit, model, analysis, execution);
+  weight.clear();
+  for (const FittedShape& one : fit.shapes) weight.push_back(one.share);
   settle_twists(model, opinions, joints);
   warn_of_absent(detection, result.warnings);
   execution.begin_stage("weights", 0.8, 1);

@@ -61,7 +61,9 @@ TEST_CASE("the worse a measure, the lower the quality; all bad: failed, with the
       {&RigMeasures::map_residual, {0.1, 0.7, 2}},
       {&RigMeasures::bulge_agreement, {0.8, 0.1, -0.5}},
       {&RigMeasures::runner_up, {1e9, 1, 0}},
-      {&RigMeasures::joint_spread, {0, 0.6, 1}},
+      {&RigMeasures::surface_distance, {0, 0.06, 1}},
+      {&RigMeasures::heading_margin, {1, 0.03, 0}},
+      {&RigMeasures::joint_spread, {0, 0.7, 1}},
       {&RigMeasures::absent_share, {0, 0.4, 1}},
       {&RigMeasures::uncovered, {0, 0.1, 1}},
       {&RigMeasures::outside_share, {0, 0.05, 1}},
@@ -69,7 +71,7 @@ TEST_CASE("the worse a measure, the lower the quality; all bad: failed, with the
       {&RigMeasures::collapsed_share, {0, 0.1, 1}},
       {&RigMeasures::merged_share, {0, 0.1, 1}},
       {&RigMeasures::crossed_share, {0, 0.2, 1}},
-      {&RigMeasures::bone_strain, {0, 0.5, 5}}};
+      {&RigMeasures::bone_strain, {0, 0.3, 5}}};
   for (const auto& [measure, values] : worse) {
     RigMeasures one;
     double before = 2;
@@ -83,7 +85,7 @@ TEST_CASE("the worse a measure, the lower the quality; all bad: failed, with the
     all.*measure = values[2];
   }
   RigMeasures alone;
-  alone.runner_up = std::numeric_limits<double>::infinity();
+  alone.runner_up = alone.heading_margin = std::numeric_limits<double>::infinity();
   CHECK(rig_quality(alone) == 1);
   CHECK(verdict_of(all) == Verdict::failed);
   CHECK(doubts_about(all).size() == worse.size());

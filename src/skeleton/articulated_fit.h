@@ -1,0 +1,88 @@
+// A training character bent at its joints and stretched along and around its bones until its surface lies on another body's. Unlike a
+// map it can neither fold nor exchange parts, so it places joints where maps of unlike bodies blur, and how well it ends says how a
+// body faces. After articulated iterative closest points (S. Pellegrini, K. Schindler, D. Nardi, "A Generalisation of the ICP
+// Algorithm for Articulated Bodies", 2008), with point-to-plane distances and linear blend skinning.
+#pragma once
+#include <vector>
+
+#include "landmarks/model_parts.h"
+#include "mesh/nearest_vertex.h"
+#include "mesh/triangle_mesh.h"
+
+namespace focal {
+
+// The surface to lie on, of area 1. Keeps what it is made of.
+struct FitTarget {
+  explicit FitTarget(const TriangleMesh& surface);
+
+  MatrixX3 positions, normals;
+  Vector area;  // per vertex, sum 1
+  NearestVertex tree;
+};
+
+// Of each joint of a skeleton: where it lies, how it is turned from its bind pose, and by what its part is scaled along its bone and
+// around it (logarithms).
+struct Posture {
+  std::vector<Vector3> place;
+  std::vector<Matrix3> turn;
+  Vector length, girth;
+};
+
+struct FitRounds {
+  int32_t coarse = 10, fine = 5;  // with a part of the points, then with all
+  double map_weight = 0;          // of the points' images beside the surface's distance, falling to 0
+};
+
+class ArticulatedFit {
+ public:
+  // counterpart: per joint the one on the other side, or -1. shape has a rig. Keeps references to all three.
+  ArticulatedFit(const std::vector<SkeletonJoint>& skeleton, const AtlasShape& shape,
+                 const std::vector<int32_t>& counterpart, const FitTarget& target);
+
+  // images: a vertex of the target a point, or empty.
+  void run(const FitRounds& rounds, const std::vector<int32_t>& images, Posture& posture) const;
+  // Mean distance of both surfaces from each other, there and back, with parts for how their normals differ and how far the joints bend.
+  double residual(const Posture& posture) const;
+  MatrixX3 points(const Posture& posture) const;
+
+  bool has(size_t joint) const { return shape_.rig->bind[joint].has_value(); }
+  Vector3 bind_place(size_t joint) const { return shape_.rig->bind[joint]->topRightCorner<3, 1>(); }
+  const Vector3& bone(size_t joint) const { return axis_[joint]; }  // its unit direction in the bind pose
+  Vector3 carried(const Posture& posture, size_t joint, const Vector3& place) const;
+
+ private:
+  struct Part {  // of a point that one joint moves: along its bone and away from it
+    int32_t slot = 0;
+    double weight = 0;
+    Vector3 along = Vector3::Zero(), away = Vector3::Zero();
+  };
+  struct System;
+
+  void choose_moving();
+  void cut_into_parts();
+  void estimate_normals();
+  MatrixX3 normals(const Posture& posture) const;
+  void add_bones(const Posture& posture, System& system) const;
+  void add_point(const Posture& posture, Eigen::Index point, const Matrix3& metric, const Vector3& gap,
+                 System& system) const;
+  void unbend(Posture& posture) const;
+  void move(const Vector& step, Posture& posture) const;
+  // Per pair of a point and a vertex of the target that should meet: point, vertex, weight, cost.
+  template <class Pair>
+  double for_each_pair(const MatrixX3& points, const MatrixX3& normals, Eigen::Index stride,
+                       Pair&& pair) const;
+
+  const std::vector<SkeletonJoint>& skeleton_;
+  const AtlasShape& shape_;
+  const std::vector<int32_t>& counterpart_;
+  const FitTarget& target_;
+  Vector weight_;                // of the points, sum 1
+  MatrixX3 normals_;             // of the points
+  std::vector<int32_t> moving_;  // joints that move on their own; small parts go with what they hang on
+  std::vector<int32_t> slot_;  // per joint its number among them or that of the joint it goes with; -1: none
+  std::vector<int32_t> parent_;  // per moving joint the slot of the one it hangs on, or -1
+  std::vector<Vector3> axis_;
+  std::vector<std::vector<Part>> parts_;
+};
+
+}  // namespace focal

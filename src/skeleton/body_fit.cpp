@@ -1,0 +1,278 @@
+#include "skeleton/body_fit.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "landmarks/shape_starts.h"
+#include "skeleton/character_rig.h"
+
+namespace focal {
+namespace {
+
+// Chosen on left-out characters of packs and of the generator.
+constexpr size_t most_from_maps = 6, most_reversed = 4, most_laid_over = 8, most_kept_over = 4;  // fits
+constexpr double sure_bulge = 0.25;         // maps whose surfaces bulge that much alike face the right way
+constexpr double reversing_margin = 0.035;  // fits that face the other way must be so much better
+constexpr double residual_falloff = 30;     // a fit counts exp(-falloff (residual / least residual - 1))
+constexpr double agreement = 0.05;          // of sqrt(area): fits whose joints lie farther off hardly count
+constexpr double start_weight = 0.7;        // of the maps' joints beside all fits
+constexpr double most_stretch = 0.4;        // see shape_starts.cpp
+constexpr FitRounds from_maps{.coarse = 10, .fine = 5, .map_weight = 0.3};
+constexpr FitRounds from_posture{.coarse = 10, .fine = 5}, glance{.coarse = 8, .fine = 0};
+
+struct Start {
+  int32_t shape = 0;
+  Posture posture;
+  const std::vector<int32_t>* images = nullptr;
+};
+
+class Fitting {
+ public:
+  Fitting(const Detection& detection, const PlacedSkeleton& start, const Execution& execution)
+      : detection_(detection),
+        model_(*detection.model),
+        start_(start),
+        execution_(execution),
+        target_(detection.analysis->surface()) {
+    std::vector<Joint> joints;
+    for (const SkeletonJoint& joint : start.joints) joints.push_back({joint.name, joint.parent});
+    counterpart_ = other_sides(joints);
+  }
+
+  bool has_sides() const {
+    return std::any_of(counterpart_.begin(), counterpart_.end(), [](int32_t one) { return one >= 0; });
+  }
+
+  // Appends the fits, in the order of the starts.
+  void add(const std::vector<Start>& starts, const FitRounds& rounds, std::vector<FittedShape>& fits) const {
+    static const std::vector<int32_t> no_images;
+    const size_t before = fits.size();
+    fits.resize(before + starts.size());
+    parallel_for(execution_, static_cast<int64_t>(starts.size()), [&](int64_t i) {
+      const Start& from = starts[i];
+      const ArticulatedFit fit = fit_of(from.shape);
+      FittedShape& one = fits[before + i];
+      one.shape = from.shape, one.posture = from.posture;
+      fit.run(rounds, from.images ? *from.images : no_images, one.posture);
+      one.residual = fit.residual(one.posture);
+    });
+  }
+
+  std::vector<Start> from_maps(const std::vector<ShapeMap>& maps) const {
+    std::vector<const ShapeMap*> order;
+    for (const ShapeMap& one : maps) order.push_back(&one);
+    std::stable_sort(order.begin(), order.end(),
+                     [](const ShapeMap* a, const ShapeMap* b) { return a->map.residual < b->map.residual; });
+    order.resize(std::min(order.size(), most_from_maps));
+    std::vector<Start> starts;
+    for (const ShapeMap* one : order) starts.push_back({one->shape, as_placed(one->shape), &one->map.image});
+    return starts;
+  }
+
+  // What was taken for the left side is the right one.
+  std::vector<Start> reversed(std::vector<FittedShape> fits) const {
+    keep_best(fits, most_reversed);
+    const Matrix3 about_up = Eigen::AngleAxisd(EIGEN_PI, Vector3::UnitY()).toRotationMatrix();
+    std::vector<Start> starts;
+    for (const FittedShape& one : fits) {
+      Start& start = starts.emplace_back(Start{one.shape, one.posture});
+      for (size_t j = 0; j < counterpart_.size(); ++j) {
+        const size_t from = counterpart_[j] < 0 ? j : static_cast<size_t>(counterpart_[j]);
+        start.posture.place[j] = one.posture.place[from];
+        start.posture.turn[j] = one.posture.turn[from] * about_up;
+        start.posture.length[j] = one.posture.length[from], start.posture.girth[j] = one.posture.girth[from];
+      }
+    }
+    return starts;
+  }
+
+  // Training shapes as they stand, with the extents of the body, facing either way.
+  std::vector<Start> laid_over() const {
+    const SurfaceAnalysis& analysis = *detection_.analysis;
+    const Matrix3 about_up = Eigen::AngleAxisd(EIGEN_PI, Vector3::UnitY()).toRotationMatrix();
+    std::vector<Start> starts;
+    for (const Matrix3& frame : {detection_.frame, Matrix3(about_up * detection_.frame)})
+      for (const int32_t shape :
+           lay_shapes_over(model_, analysis, frame, most_laid_over, 0, execution_).exemplars)
+        if (model_.atlas[shape].rig) starts.push_back({shape, as_it_stands(shape, frame)});
+    std::vector<FittedShape> fits;
+    add(starts, glance, fits);
+    keep_best(fits, most_kept_over);
+    starts.clear();
+    for (const FittedShape& one : fits) starts.push_back({one.shape, one.posture});
+    return starts;
+  }
+
+  // Whether the joints lie nearer to the start with its sides exchanged.
+  bool is_reversed(const FittedShape& fit) const {
+    double as_it_is = 0, exchanged = 0;
+    for (size_t j = 0; j < counterpart_.size(); ++j)
+      if (counterpart_[j] >= 0) {
+        as_it_is += (fit.posture.place[j] - start_.place[j]).norm();
+        exchanged += (fit.posture.place[j] - start_.place[counterpart_[j]]).norm();
+      }
+    return exchanged < as_it_is;
+  }
+
+  void finish(FittedShape& one) const {
+    const ArticulatedFit fit = fit_of(one.shape);
+    one.points = fit.points(one.posture);
+    for (size_t j = 0; j < start_.place.size(); ++j)
+      one.tip.push_back(fit.has(j) ? fit.carried(one.posture, j, model_.atlas[one.shape].rig->tip[j])
+                                   : start_.tip[j]);
+  }
+
+  static void keep_best(std::vector<FittedShape>& fits, size_t most) {
+    std::stable_sort(fits.begin(), fits.end(),
+                     [](const FittedShape& a, const FittedShape& b) { return a.residual < b.residual; });
+    fits.resize(std::min(fits.size(), most));
+  }
+
+ private:
+  ArticulatedFit fit_of(int32_t shape) const {
+    return {start_.joints, model_.atlas[shape], counterpart_, target_};
+  }
+
+  Posture unmoved() const {
+    const auto joints = static_cast<Eigen::Index>(start_.place.size());
+    return {start_.place, std::vector<Matrix3>(start_.place.size(), Matrix3::Identity()),
+            Vector::Zero(joints), Vector::Zero(joints)};
+  }
+
+  // The joints as the maps agree on them.
+  Posture as_placed(int32_t shape) const {
+    const ShapeRig& rig = *model_.atlas[shape].rig;
+    Posture result = unmoved();
+    double sum = 0;
+    int32_t count = 0;
+    for (size_t j = 0; j < start_.joints.size(); ++j) {
+      if (!rig.bind[j]) continue;
+      result.turn[j] = start_.turn[j] * rig.bind[j]->topLeftCorner<3, 3>().transpose();
+      const int32_t p = start_.joints[j].parent;
+      if (p < 0 || !rig.bind[p]) continue;
+      const double to = (start_.place[j] - start_.place[p]).norm();
+      const double from = (rig.bind[j]->topRightCorner<3, 1>() - rig.bind[p]->topRightCorner<3, 1>()).norm();
+      constexpr double least_length = 1e-3;
+      if (to > least_length && from > least_length) sum += std::log(to / from), ++count;
+    }
+    const double size = std::clamp(sum / std::max(count, 1), -0.5, 0.5);
+    result.length.setConstant(size), result.girth.setConstant(size / 2);
+    return result;
+  }
+
+  Posture as_it_stands(int32_t shape, const Matrix3& frame) const {
+    const AtlasShape& of = model_.atlas[shape];
+    const ArticulatedFit fit = fit_of(shape);
+    const Vector area = of.samples.weight.head(of.positions.rows()).cast<double>();
+    const MatrixX3 body = target_.positions * frame.transpose();
+    const Spread here = spread_of(body, target_.area), there = spread_of(of.positions, area / area.sum());
+    Vector3 scale = here.deviation.cwiseQuotient(there.deviation.cwiseMax(1e-9)).cwiseMax(1e-9);
+    const double all = std::cbrt(scale.prod());
+    for (double& one : scale)
+      one = all * std::exp(std::clamp(std::log(one / all), -most_stretch, most_stretch));
+    Posture result = unmoved();
+    for (size_t j = 0; j < start_.joints.size(); ++j) {
+      if (!fit.has(j)) continue;
+      result.place[j] = frame.transpose() * (scale.cwiseProduct(fit.bind_place(j) - there.mean) + here.mean);
+      result.turn[j] = frame.transpose();
+      const double along = std::log(scale.cwiseProduct(fit.bone(j)).norm());
+      const auto at = static_cast<Eigen::Index>(j);
+      result.length[at] = along;
+      result.girth[at] = std::clamp(1.5 * std::log(all) - 0.5 * along, -1.0, 1.0);  // the volume is kept
+    }
+    return result;
+  }
+
+  struct Spread {
+    Vector3 mean, deviation;
+  };
+  static Spread spread_of(const MatrixX3& points, const Vector& weight) {
+    const Vector3 mean = points.transpose() * weight;
+    const MatrixX3 away = points.rowwise() - mean.transpose();
+    return {mean, (away.array().square().matrix().transpose() * weight).array().sqrt()};
+  }
+
+  const Detection& detection_;
+  const LandmarkModel& model_;
+  const PlacedSkeleton& start_;
+  const Execution& execution_;
+  FitTarget target_;
+  std::vector<int32_t> counterpart_;
+};
+
+double apart(const std::vector<Vector3>& a, const std::vector<Vector3>& b) {
+  double sum = 0;
+  for (size_t j = 0; j < a.size(); ++j) sum += (a[j] - b[j]).norm();
+  return sum / static_cast<double>(a.size());
+}
+
+double agreement_of(const std::vector<Vector3>& a, const std::vector<Vector3>& b) {
+  return 1 / (1 + std::pow(apart(a, b) / agreement, 4));
+}
+
+// Those that face the way that the best of them says, the best first.
+void choose_heading(const Fitting& fitting, BodyFit& result) {
+  std::vector<FittedShape> kept[2];
+  for (FittedShape& one : result.shapes) kept[fitting.is_reversed(one) ? 1 : 0].push_back(std::move(one));
+  for (auto& fits : kept) Fitting::keep_best(fits, fits.size());
+  if (!kept[0].empty() && !kept[1].empty()) {
+    const double ratio = kept[1][0].residual / kept[0][0].residual;
+    result.is_reversed = ratio < 1 - reversing_margin;
+    result.heading_margin = (result.is_reversed ? 1 / ratio : ratio) - 1;
+  } else {
+    result.is_reversed = kept[0].empty();
+  }
+  result.shapes = std::move(kept[result.is_reversed ? 1 : 0]);
+}
+
+}  // namespace
+
+BodyFit fit_to_body(const Detection& detection, const std::vector<ShapeMap>& maps,
+                    const PlacedSkeleton& start, const Execution& execution) {
+  const Fitting fitting(detection, start, execution);
+  BodyFit result;
+  fitting.add(fitting.from_maps(maps), from_maps, result.shapes);
+  if (detection.model->params.oriented && fitting.has_sides() && detection.bulge_agreement < sure_bulge) {
+    fitting.add(fitting.reversed(result.shapes), from_posture, result.shapes);
+    fitting.add(fitting.laid_over(), from_posture, result.shapes);
+  }
+  choose_heading(fitting, result);
+  double sum = 0;
+  const FittedShape& best = result.shapes[0];
+  for (FittedShape& one : result.shapes) {
+    one.share = std::exp(-residual_falloff * (one.residual / best.residual - 1)) *
+                agreement_of(one.posture.place, best.posture.place);
+    sum += one.share;
+  }
+  result.start_share = start_weight * sum * agreement_of(start.place, best.posture.place);
+  constexpr double least_share = 1e-3;
+  std::erase_if(result.shapes, [](const FittedShape& one) { return one.share < least_share; });
+  for (FittedShape& one : result.shapes) fitting.finish(one);
+  return result;
+}
+
+std::vector<ShapeMap> maps_of_fits(const BodyFit& fit, const LandmarkModel& model,
+                                   const SurfaceAnalysis& analysis, const Execution& execution) {
+  constexpr Eigen::Index functions = 100;
+  const NearestVertex tree(analysis.surface().positions);
+  std::vector<ShapeMap> result(fit.shapes.size());
+  parallel_for(execution, static_cast<int64_t>(result.size()), [&](int64_t m) {
+    const FittedShape& one = fit.shapes[m];
+    const SpectralSamples& samples = model.atlas[one.shape].samples;
+    const Eigen::Index points = one.points.rows();
+    const Eigen::Index k =
+        std::min({functions, analysis.eigenfunctions.cols(), static_cast<Eigen::Index>(samples.Phi.cols())});
+    ShapeMap& map = result[m];
+    map.shape = one.shape, map.map.residual = static_cast<float>(one.residual);
+    Eigen::MatrixXf there(points, k);
+    for (Eigen::Index i = 0; i < points; ++i) {
+      map.map.image.push_back(tree.nearest(one.points.row(i)).first);
+      there.row(i) = samples.weight[i] * analysis.eigenfunctions.row(map.map.image.back()).head(k);
+    }
+    map.map.C = samples.Phi.topLeftCorner(points, k).transpose() * there;
+  });
+  return result;
+}
+
+}  // namespace focal
