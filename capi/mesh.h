@@ -22,6 +22,11 @@ struct LeftOut {
   bool is_whole_node = true;
 };
 
+// Of the caller's vertices and triangles.
+struct MeshPart {
+  uint64_t first_vertex = 0, vertex_count = 0, first_triangle = 0, triangle_count = 0;
+};
+
 struct MeshObject {
   using Handle = focal_mesh;
   static constexpr HandleType type = HandleType::mesh;
@@ -36,6 +41,7 @@ struct MeshObject {
   std::vector<std::byte> file;            // the caller's glTF; empty when there is none or it was not kept
   std::vector<GltfPrimitive> primitives;  // of that file
   std::vector<LeftOut> left_out;
+  std::vector<MeshPart> parts;
   GltfLimits limits;  // it was read with
   std::optional<std::filesystem::path>
       folder;  // of the files beside a .gltf, when it was allowed to read them

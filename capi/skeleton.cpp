@@ -11,8 +11,10 @@
 #include "boundary.h"
 #include "gltf/animation.h"
 #include "gltf/skin.h"
+#include "gltf/vrm.h"
 #include "gltf/writer.h"
-#include "skeleton/bone_names.h"
+#include "skeleton/bone_roles.h"
+#include "skeleton/ground_root.h"
 #include "skeleton/retarget.h"
 #include "skeleton_template.h"
 #include "structs.h"
@@ -31,8 +33,9 @@ struct StructTraits<focal_skeleton_params> {
     return params;
   }
 };
-static_assert(sizeof(void*) != 8 || (sizeof(focal_skeleton_params) == 56 &&
-                                     offsetof(focal_skeleton_params, joint_name_count) == 16));
+static_assert(sizeof(void*) != 8 || (sizeof(focal_skeleton_params) == 80 &&
+                                     offsetof(focal_skeleton_params, joint_name_count) == 16 &&
+                                     offsetof(focal_skeleton_params, fixed_joint_count) == 64));
 
 template <>
 struct StructTraits<focal_skeleton_info> {
@@ -59,10 +62,12 @@ namespace {
 
 void check(const focal_skeleton_params& params) {
   check_range("focal_skeleton_params.names", params.names, FOCAL_BONE_NAMES_AS_TRAINED,
-              FOCAL_BONE_NAMES_UNITY);
+              FOCAL_BONE_NAMES_RIGIFY_METARIG);
   check_flag("focal_skeleton_params.rest_pose", params.rest_pose);
   check_reserved("focal_skeleton_params.reserved", params.reserved);
   check_flag("focal_skeleton_params.symmetric", params.symmetric);
+  check_flag("focal_skeleton_params.ground_root", params.ground_root);
+  check_reserved("focal_skeleton_params.reserved_2", params.reserved_2);
   check_range("focal_skeleton_params.max_influences", params.max_influences, 1, 2 * most_influences);
   if (params.skeleton_template && params.animations)
     throw Error(Status::invalid_argument, "animations were asked for together with a template",
@@ -77,15 +82,34 @@ void check_names(const focal_skeleton_params& params, size_t joints) {
                 "give one name, or NULL, for each joint of the model or template");
 }
 
+// In the caller's coordinates.
+FixedJoints fixed_joints(const focal_skeleton_params& params, size_t joints) {
+  if (!params.fixed_joints && params.fixed_joint_count == 0) return {};
+  require(params.fixed_joints, "focal_skeleton_params.fixed_joints");
+  check_count("focal_skeleton_params.fixed_joint_count", params.fixed_joint_count, joints, "the skeleton",
+              "joints");
+  FixedJoints result(joints);
+  for (size_t j = 0; j < joints; ++j) {
+    const Vector3 place = Eigen::Map<const Eigen::Vector3f>(params.fixed_joints + 3 * j).cast<double>();
+    if (place.allFinite()) result[j] = place;
+  }
+  return result;
+}
+
 void rename_joints(const focal_skeleton_params& params, CharacterRig& rig) {
   auto& joints = rig.rig.joints;
-  std::vector<std::string> names, unknown;
-  for (const Joint& joint : joints) names.push_back(joint.name);
-  names = bone_names(names, static_cast<BoneNames>(params.names), unknown);
-  for (const std::string& name : unknown)
-    rig.warnings.push_back("bone '" + name + "' has no name in this convention and keeps its own");
+  size_t known = 0;
+  const std::vector<std::string> names = names_by_role(joints, static_cast<BoneNames>(params.names), known);
+  if (known == 0)
+    rig.warnings.push_back("no bone has a role in this convention of names: all of them keep their own");
   for (size_t j = 0; j < joints.size(); ++j)
     joints[j].name = params.joint_names && params.joint_names[j] ? params.joint_names[j] : names[j];
+}
+
+void put_root(const focal_skeleton_params& params, SkeletonObject& object) {
+  const bool capital = params.names == FOCAL_BONE_NAMES_UNITY;
+  add_ground_root(capital ? "Root" : "root", object.mesh->mesh->source, object.rig);
+  for (JointAnimation& one : object.animations) one.joints.insert(one.joints.begin(), JointKeys{});
 }
 
 void judge(SkeletonObject& object, const RigMeasures& measures) {
@@ -114,6 +138,24 @@ std::vector<JointAnimation> animations_for(const CharacterRig& rig, const Prepar
         {one.name, one.times,
          retarget(source->joints, one.joints, rig.rig.joints, target.scale / character.mesh->scale)});
   return result;
+}
+
+void put_skeleton(const SkeletonObject& object, SourceFile& source) {
+  if (object.keeps_joints) {
+    source.bytes = replace_weights(source.bytes, source.primitives, object.rig.rig, source.limits);
+    return;
+  }
+  GltfRig rig{&object.rig.rig, object.rig.tip, {}, object.animations, &object.mesh->mesh->source};
+  if (object.in_rest_pose) rig.pose = object.rig.rest;
+  source.bytes = add_skin(source.bytes, source.primitives, rig, source.limits);
+  for (GltfPrimitive& primitive : source.primitives) primitive.mirrored = false;  // turned in the file
+}
+
+// The mesh's own file with the skeleton, and with the landmarks where some were looked for.
+std::vector<std::byte> written(const SkeletonObject& object, const std::filesystem::path& path) {
+  SourceFile source = source_file(*object.mesh, path);
+  put_skeleton(object, source);
+  return object.detection ? with_landmarks(*object.detection, source) : std::move(source.bytes);
 }
 
 focal_joint to_abi(const CharacterRig& rig, size_t index) {
@@ -155,32 +197,37 @@ focal_status focal_skeleton_create(const focal_detection* detection, const focal
     require(out_skeleton, "out_skeleton");
     const auto object = std::make_shared<SkeletonObject>();
     object->detection = resolve<DetectionObject>(detection);
+    object->mesh = object->detection->mesh, object->context = object->detection->model->context;
     const focal_skeleton_params how = read_struct(params);
     check(how);
     std::optional<SkeletonTemplate> by_hand;
     if (how.skeleton_template) by_hand = parse_skeleton_template(how.skeleton_template);
-    check_names(how, by_hand ? by_hand->joints.size() : object->detection->model->info.joint_names.size());
+    const size_t joint_count =
+        by_hand ? by_hand->joints.size() : object->detection->model->info.joint_names.size();
+    check_names(how, joint_count);
+    const FixedJoints fixed = fixed_joints(how, joint_count);
     const auto character = how.animations ? resolve<MeshObject>(how.animations) : nullptr;
     const TaskLease lease(task);
-    const Execution execution = object->detection->model->context->execution_with(lease.task());
+    const Execution execution = object->context->execution_with(lease.task());
     execution.check_cancelled();
     const Detection& found = object->detection->detection;
     if (by_hand) by_hand->symmetric |= how.symmetric != 0;
-    object->rig = by_hand ? rig_by_template(*by_hand, found, execution, how.max_influences)
-                          : transfer_rig(found, execution, how.symmetric != 0, how.max_influences);
+    object->rig = by_hand ? rig_by_template(*by_hand, found, execution, how.max_influences, fixed)
+                          : transfer_rig(found, execution, how.symmetric != 0, how.max_influences, fixed);
     // Before the joints are renamed: names identify pairs of joints, and those of the model.
     const RigMeasures measures = rig_measures(found, object->rig);
     if (how.rest_pose && object->rig.rest.empty())
       throw Error(Status::invalid_argument, "the template has no rest pose",
                   R"(give its joints a "rest": the way their bones point)");
     if (character) {
-      object->animations = animations_for(object->rig, *object->detection->mesh->mesh, *character);
+      object->animations = animations_for(object->rig, *object->mesh->mesh, *character);
       if (object->animations.empty()) object->rig.warnings.push_back("the character has no animations");
     }
     object->in_rest_pose = how.rest_pose != 0;
     rename_joints(how, object->rig);
     judge(*object, measures);
-    object->detection->model->context->report_warnings(object->rig.warnings);
+    if (how.ground_root) put_root(how, *object);
+    object->context->report_warnings(object->rig.warnings);
     *out_skeleton = publish(object);
   });
 }
@@ -260,12 +307,17 @@ focal_status focal_skeleton_write_gltf(const focal_skeleton* skeleton, const cha
   return guarded([&] {
     const auto object = resolve<SkeletonObject>(skeleton);
     const auto file = path_of(path);
-    SourceFile source = source_file(*object->detection->mesh, file);
-    GltfRig rig{
-        &object->rig.rig, object->rig.tip, {}, object->animations, &object->detection->mesh->mesh->source};
-    if (object->in_rest_pose) rig.pose = object->rig.rest;
-    source.bytes = add_skin(source.bytes, source.primitives, rig, source.limits);
-    for (GltfPrimitive& primitive : source.primitives) primitive.mirrored = false;  // turned in the file
-    write_file_atomically(file, with_landmarks(*object->detection, source));
+    write_file_atomically(file, written(*object, file));
+  });
+}
+
+focal_status focal_skeleton_write_vrm(const focal_skeleton* skeleton, const char* meta, const char* path) {
+  return guarded([&] {
+    require(meta, "meta");
+    const auto object = resolve<SkeletonObject>(skeleton);
+    const auto file = path_of(path);
+    const auto& joints = object->rig.rig.joints;
+    write_file_atomically(
+        file, add_vrm(written(*object, file), joints, bone_roles(joints), meta, object->mesh->limits));
   });
 }

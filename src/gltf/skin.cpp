@@ -36,7 +36,7 @@ class Skeleton {
       open.pop_back();
       if (const auto bind = binds_.find(node); bind != binds_.end()) {
         order_[node] = static_cast<int32_t>(result.size());
-        result.push_back({name_of(node), above, bind->second});
+        result.push_back({name_of(node), above, bind->second, node});
         above = order_[node];
       }
       const json& children = list(nodes_[static_cast<size_t>(node)], "children");

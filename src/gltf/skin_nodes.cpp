@@ -11,6 +11,7 @@
 #include "gltf/document_edit.h"
 #include "gltf/former_rig.h"
 #include "gltf/glb.h"
+#include "gltf/skin_numbers.h"
 #include "gltf/text.h"
 #include "gltf/writer.h"
 
@@ -46,6 +47,8 @@ class SkinInserter {
         pool_(root) {}
 
   void add();
+  // Of the primitives whose node has a skin: joint numbers are those of that skin.
+  void replace_weights();
   // The BIN chunk of a .glb, the old one included; empty when the data went into a buffer of its own.
   std::vector<std::byte> bin() const { return owns_bin_ ? data_ : std::vector<std::byte>{}; }
 
@@ -361,6 +364,13 @@ void SkinInserter::add() {
   end_data();
 }
 
+void SkinInserter::replace_weights() {
+  begin_data();
+  for (const GltfPrimitive& primitive : primitives_)
+    if (skin_of(root_, primitive)) add_weights(primitive);
+  end_data();
+}
+
 void check(std::span<const GltfPrimitive> primitives, const GltfRig& rig) {
   const auto joints = rig.rig->joints.size();
   size_t vertices = 0;
@@ -384,6 +394,19 @@ void check(std::span<const GltfPrimitive> primitives, const GltfRig& rig) {
 }
 
 }  // namespace
+
+std::vector<std::byte> replace_weights(std::span<const std::byte> source,
+                                       std::span<const GltfPrimitive> primitives, const Rig& rig,
+                                       const GltfLimits& limits) {
+  const GltfContainer container = open_container(source, limits);
+  parse_gltf(container, limits);  // every reference followed below is checked here
+  OrderedJsonDocument document(container.json, {.depth = limits.json_depth, .values = limits.json_values});
+  const Rig of_skins = in_numbers_of_skins(document.root(), primitives, rig);
+  const GltfRig given{&of_skins, {}};
+  SkinInserter inserter(document.root(), primitives, given, container.bin, container.binary);
+  inserter.replace_weights();
+  return edited_file(container, document.root(), inserter.bin());
+}
 
 std::vector<std::byte> add_skin(std::span<const std::byte> source, std::span<const GltfPrimitive> primitives,
                                 const GltfRig& rig, const GltfLimits& limits) {

@@ -59,4 +59,11 @@ struct GltfRig {
 std::vector<std::byte> add_skin(std::span<const std::byte> source, std::span<const GltfPrimitive> primitives,
                                 const GltfRig& rig, const GltfLimits& limits = {});
 
+// The source file (the same kind comes back) with other weights for the meshes that have a skin; nodes, skins and bind matrices stay.
+// rig: of read_gltf_rig for the same file, with other influences. A vertex without weights is moved by the first joint of its skin.
+// Throws what parse_gltf throws.
+std::vector<std::byte> replace_weights(std::span<const std::byte> source,
+                                       std::span<const GltfPrimitive> primitives, const Rig& rig,
+                                       const GltfLimits& limits = {});
+
 }  // namespace focal

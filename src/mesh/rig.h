@@ -13,6 +13,7 @@ struct Joint {
   std::string name;
   int32_t parent = -1;                 // comes before it; -1: a root
   Matrix4 bind = Matrix4::Identity();  // from the joint's own coordinates to those of the mesh
+  int32_t node = -1;                   // of the file that it was read from; -1: none
 };
 
 struct Influence {

@@ -12,12 +12,20 @@ namespace {
 constexpr double heat_of_hidden = 1e-4;  // of what a bone gives that is seen: only where none is
 constexpr double least_distance = 1e-3;  // of sqrt(area): a bone in the skin
 constexpr double same_distance = 1.02;   // bones about as near share a vertex
+constexpr double same_side = 0.05;       // and lie about as far off their ends
 
 Vector3 nearest_on(const Bone& bone, const Vector3& p) {
   const Vector3 along = bone.to - bone.from;
   const double squared = along.squaredNorm();
   if (!(squared > 0)) return bone.from;
   return bone.from + std::clamp(along.dot(p - bone.from) / squared, 0.0, 1.0) * along;
+}
+
+// How far a vertex lies off the ends of a bone, as a share of its distance: 0 beside it, 1 straight before or behind it.
+double off_end(const Bone& bone, const Vector3& p) {
+  const Vector3 along = (bone.to - bone.from).stableNormalized();
+  const double off = std::max(along.dot(bone.from - p), along.dot(p - bone.to));
+  return std::max(off, 0.0) / std::max((nearest_on(bone, p) - p).norm(), 1e-12);
 }
 
 // Whether the straight way from a vertex to a place stays inside.
@@ -49,9 +57,16 @@ Source source_of(const RayCaster& rays, const Vector3& vertex, const Vector3& no
   });
   const double strength = seen == near.end() ? heat_of_hidden : 1;
   const double nearest = seen == near.end() ? near[0].distance : seen->distance;
+  // Outside of a bent joint the bones that meet there are equally near: each has the half towards it.
+  const auto is_as_near = [&](const Candidate& one) {
+    return one.distance >= nearest && one.distance <= same_distance * nearest;
+  };
+  double least_off = 1;
+  for (const Candidate& one : near)
+    if (is_as_near(one)) least_off = std::min(least_off, off_end(*one.bone, vertex));
   Source source;
   for (const Candidate& one : near) {
-    if (one.distance < nearest || one.distance > same_distance * nearest) continue;
+    if (!is_as_near(one) || off_end(*one.bone, vertex) > least_off + same_side) continue;
     if (std::find(source.joints.begin(), source.joints.end(), one.bone->joint) == source.joints.end())
       source.joints.push_back(one.bone->joint);
   }

@@ -1,5 +1,6 @@
 #include "skeleton/bone_names.h"
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 
@@ -54,14 +55,18 @@ std::string with_side(std::string name, const char* side) {
 }
 
 // The bone in every convention, by BoneNames less one.
-using Names = std::array<std::string, 5>;
+using Names = std::array<std::string, 6>;
 
 Names names_of(const Bone& bone, bool left) {
   Names names{with_side(bone.vrm, left ? "left" : "right"),
               "mixamorig:" + with_side(bone.mixamo, left ? "Left" : "Right"),
-              with_side(bone.unreal, left ? "l" : "r"), with_side(bone.rigify, left ? "L" : "R"), ""};
+              with_side(bone.unreal, left ? "l" : "r"),
+              with_side(bone.rigify, left ? "L" : "R"),
+              "",
+              ""};
   names[4] = names[0];
   names[4][0] = static_cast<char>(std::toupper(static_cast<unsigned char>(names[4][0])));
+  names[5] = names[3].substr(4);  // without DEF-
   return names;
 }
 
@@ -74,8 +79,8 @@ std::vector<Names> all_bones() {
 }
 
 bool is_called(const Names& names, const std::string& name) {
-  for (const std::string& known : names)
-    if (known == name) return true;
+  constexpr size_t understood = 5;  // not the metarig's: there `spine` are the hips
+  if (std::find(names.begin(), names.begin() + understood, name) != names.begin() + understood) return true;
   return names[1] == "mixamorig:" + name;  // the prefix is often dropped
 }
 
@@ -86,17 +91,6 @@ std::optional<std::string> bone_name(const std::string& name, BoneNames conventi
   for (const Names& names : all_bones())
     if (is_called(names, name)) return names[static_cast<size_t>(convention) - 1];
   return std::nullopt;
-}
-
-std::vector<std::string> bone_names(const std::vector<std::string>& names, BoneNames convention,
-                                    std::vector<std::string>& unknown) {
-  std::vector<std::string> result;
-  for (const std::string& name : names) {
-    const auto other = bone_name(name, convention);
-    if (!other) unknown.push_back(name);
-    result.push_back(other.value_or(name));
-  }
-  return result;
 }
 
 std::optional<std::string> mirrored_name(const std::string& name) {

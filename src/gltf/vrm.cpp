@@ -1,0 +1,111 @@
+#include "gltf/vrm.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "gltf/document_edit.h"
+#include "gltf/glb.h"
+#include "gltf/preflight.h"
+
+namespace focal {
+namespace {
+
+constexpr const char* required_bones[] = {"hips",          "spine",         "head",          "leftUpperLeg",
+                                          "leftLowerLeg",  "leftFoot",      "rightUpperLeg", "rightLowerLeg",
+                                          "rightFoot",     "leftUpperArm",  "leftLowerArm",  "leftHand",
+                                          "rightUpperArm", "rightLowerArm", "rightHand"};
+constexpr const char* license_url = "https://vrm.dev/licenses/1.0/";
+
+void check_bones(std::span<const std::string> roles) {
+  std::string missing;
+  for (const char* bone : required_bones)
+    if (std::find(roles.begin(), roles.end(), bone) == roles.end())
+      missing += (missing.empty() ? "" : ", ") + std::string(bone);
+  if (!missing.empty())
+    throw Error(Status::invalid_argument, "the skeleton has no joint for " + missing + ", which VRM requires",
+                "use a model of humanoids; joints are known by their names and where they hang");
+}
+
+// The nodes of the joints: as read from this file, or those of the skin that has joints of these names in this order.
+std::vector<size_t> nodes_of(OrderedJson& root, const std::vector<Joint>& joints) {
+  std::vector<size_t> nodes;
+  if (joints[0].node >= 0) {
+    for (const Joint& joint : joints) nodes.push_back(static_cast<size_t>(joint.node));
+    return nodes;
+  }
+  OrderedJson* skins = find(root, "skins");
+  for (size_t s = 0; skins && s < skins->size(); ++s) {
+    const OrderedJson& list = (*skins)[s]["joints"];
+    nodes.clear();
+    for (size_t j = 0; j < list.size() && list.size() == joints.size(); ++j) {
+      const auto node = list[j].get<size_t>();
+      const OrderedJson* name = find(root["nodes"][node], "name");
+      if (!name || !is_text(*name, joints[j].name)) break;
+      nodes.push_back(node);
+    }
+    if (nodes.size() == joints.size()) return nodes;
+  }
+  throw Error(Status::invalid_argument, "the file lacks the joints of the skeleton",
+              "write the skeleton into it first");
+}
+
+std::string human_bones(std::span<const std::string> roles, const std::vector<size_t>& nodes) {
+  std::string text;
+  for (size_t j = 0; j < roles.size(); ++j)
+    if (!roles[j].empty())
+      text +=
+          (text.empty() ? "" : ",") + json_string(roles[j]) + R"(:{"node":)" + std::to_string(nodes[j]) + "}";
+  return "{" + text + "}";
+}
+
+bool is_filled_text(const OrderedJson& value) {
+  const auto* text = value.get_ptr<const std::string*>();
+  return text && !text->empty();
+}
+
+// With what VRM requires.
+std::string checked_meta(std::string_view text) {
+  OrderedJsonDocument document(std::as_bytes(std::span(text)), {});
+  OrderedJson& meta = document.root();
+  if (!meta.is_object())
+    throw Error(Status::invalid_file, "the meta data is no JSON object",
+                R"(write {"name": "...", "authors": ["..."]})");
+  const OrderedJson *name = find(meta, "name"), *authors = find(meta, "authors");
+  const bool has_authors = authors && authors->is_array() && !authors->empty() &&
+                           std::all_of(authors->begin(), authors->end(), is_filled_text);
+  if (!name || !is_filled_text(*name) || !has_authors)
+    throw Error(Status::invalid_argument, "VRM's meta data needs a name and a list of authors",
+                R"(write {"name": "...", "authors": ["..."]})");
+  if (!find(meta, "licenseUrl")) meta["licenseUrl"] = license_url;
+  return meta.dump();
+}
+
+void declare(OrderedJson& root) {
+  OrderedJson& used = member_or_new(root, "extensionsUsed", OrderedJson::value_t::array);
+  for (const OrderedJson& one : used)
+    if (is_text(one, "VRMC_vrm")) return;
+  used.push_back("VRMC_vrm");
+}
+
+}  // namespace
+
+std::vector<std::byte> add_vrm(std::span<const std::byte> source, const std::vector<Joint>& joints,
+                               std::span<const std::string> roles, std::string_view meta,
+                               const GltfLimits& limits) {
+  const GltfContainer container = open_container(source, limits);
+  if (!container.binary)
+    throw Error(Status::invalid_argument, "the mesh came as .gltf, and VRM is a .glb", "export it as .glb");
+  check_bones(roles);
+  const std::string checked = checked_meta(meta);
+  parse_gltf(container, limits);
+  OrderedJsonDocument document(container.json, {.depth = limits.json_depth, .values = limits.json_values});
+  OrderedJson& root = document.root();
+  const std::string bones = human_bones(roles, nodes_of(root, joints));
+  declare(root);
+  OrderedJson& extensions = member_or_new(root, "extensions", OrderedJson::value_t::object);
+  put(extensions["VRMC_vrm"],
+      R"({"specVersion":"1.0","meta":)" + checked + R"(,"humanoid":{"humanBones":)" + bones + "}}");
+  return edited_file(container, root);
+}
+
+}  // namespace focal
