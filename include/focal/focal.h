@@ -826,8 +826,8 @@ FOCAL_API focal_status focal_skeleton_destroy(focal_skeleton* skeleton);
 typedef struct focal_bind_params {
   uint32_t struct_size;
   int32_t max_influences; /* joints that move one vertex, at most: 1 to 8, default 4 */
-  /* NULL and 0: the joints of the skins of the mesh's own file; then the fields below are NULL too. A joint that has half of the
-     weight of no vertex there (a pole, a target) moves none here, unless none has. Otherwise names, each non-empty */
+  /* NULL and 0: the joints of the skins of the mesh's own file; then the fields below are NULL too. A joint that is no
+     vertex's main one there (a pole, a target) moves none here, unless none is. Otherwise names, each non-empty */
   const char* const* joint_names;
   uint64_t joint_count;         /* at most 65,536 */
   const int32_t* joint_parents; /* number of a joint before it; -1: a root */

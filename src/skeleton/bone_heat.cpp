@@ -12,20 +12,12 @@ namespace {
 constexpr double heat_of_hidden = 1e-4;  // of what a bone gives that is seen: only where none is
 constexpr double least_distance = 1e-3;  // of sqrt(area): a bone in the skin
 constexpr double same_distance = 1.02;   // bones about as near share a vertex
-constexpr double same_side = 0.05;       // and lie about as far off their ends
 
 Vector3 nearest_on(const Bone& bone, const Vector3& p) {
   const Vector3 along = bone.to - bone.from;
   const double squared = along.squaredNorm();
   if (!(squared > 0)) return bone.from;
   return bone.from + std::clamp(along.dot(p - bone.from) / squared, 0.0, 1.0) * along;
-}
-
-// How far a vertex lies off the ends of a bone, as a share of its distance: 0 beside it, 1 straight before or behind it.
-double off_end(const Bone& bone, const Vector3& p) {
-  const Vector3 along = (bone.to - bone.from).stableNormalized();
-  const double off = std::max(along.dot(bone.from - p), along.dot(p - bone.to));
-  return std::max(off, 0.0) / std::max((nearest_on(bone, p) - p).norm(), 1e-12);
 }
 
 // Whether the straight way from a vertex to a place stays inside.
@@ -42,7 +34,7 @@ struct Source {
 };
 
 Source source_of(const RayCaster& rays, const Vector3& vertex, const Vector3& normal,
-                 const std::vector<Bone>& bones) {
+                 const std::vector<Bone>& bones, double hottest) {
   struct Candidate {
     double distance;
     const Bone* bone;
@@ -55,18 +47,11 @@ Source source_of(const RayCaster& rays, const Vector3& vertex, const Vector3& no
     return one.distance < 2 * near[0].distance + least_distance &&
            sees(rays, vertex, normal, nearest_on(*one.bone, vertex));
   });
-  const double strength = seen == near.end() ? heat_of_hidden : 1;
+  const double strength = hottest * (seen == near.end() ? heat_of_hidden : 1);
   const double nearest = seen == near.end() ? near[0].distance : seen->distance;
-  // Outside of a bent joint the bones that meet there are equally near: each has the half towards it.
-  const auto is_as_near = [&](const Candidate& one) {
-    return one.distance >= nearest && one.distance <= same_distance * nearest;
-  };
-  double least_off = 1;
-  for (const Candidate& one : near)
-    if (is_as_near(one)) least_off = std::min(least_off, off_end(*one.bone, vertex));
   Source source;
   for (const Candidate& one : near) {
-    if (!is_as_near(one) || off_end(*one.bone, vertex) > least_off + same_side) continue;
+    if (one.distance < nearest || one.distance > same_distance * nearest) continue;
     if (std::find(source.joints.begin(), source.joints.end(), one.bone->joint) == source.joints.end())
       source.joints.push_back(one.bone->joint);
   }
@@ -78,15 +63,16 @@ Source source_of(const RayCaster& rays, const Vector3& vertex, const Vector3& no
 }  // namespace
 
 RowMatrixf bone_heat_weights(const SurfaceAnalysis& analysis, const RayCaster& rays,
-                             const std::vector<Bone>& bones, int32_t joint_count,
-                             const Execution& execution) {
+                             const std::vector<Bone>& bones, int32_t joint_count, const Execution& execution,
+                             double strength) {
   if (bones.empty()) throw Error(Status::invalid_argument, "the skeleton has no bones", "give it joints");
   const TriangleMesh& mesh = analysis.surface();
   const Eigen::Index n = mesh.vertex_count();
   const MatrixX3 normals = area_normals(mesh).rowwise().normalized();
   std::vector<Source> sources(static_cast<size_t>(n));
   parallel_for(execution, n, [&](int64_t v) {
-    sources[v] = source_of(rays, mesh.positions.row(v).transpose(), normals.row(v).transpose(), bones);
+    sources[v] =
+        source_of(rays, mesh.positions.row(v).transpose(), normals.row(v).transpose(), bones, strength);
   });
   // (L + M H) w = M H p, the paper's -Laplacian w + H w = H p times the mass of each vertex.
   SparseMatrix A = analysis.operators.L;

@@ -15,7 +15,7 @@ struct OwnSkeleton {
       tip;  // per joint: where its bone ends; nothing: it follows from skeleton and body
 };
 
-// The joints of a rig as they are; those that have half of the weight of no vertex there move none here, unless none has any.
+// The joints of a rig as they are; those that are no vertex's main joint with a third of its weight there move none here, unless none has any.
 OwnSkeleton own_skeleton_of(const Rig& rig);
 
 // Weights by bone heat on the analysed surface, small separate parts that ride on a bone rigid (see part_weights.h). influences: of one
