@@ -1,6 +1,5 @@
 #include "landmarks/consensus.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -22,9 +21,6 @@ constexpr double doubtful_residual = 0.69, residual_width = 0.015;
 constexpr double outlier_distance = 0.03;  // of sqrt(area): marks farther from the consensus count less
 constexpr int rounds = 8;                  // of reweighting
 constexpr int median_rounds = 10;
-// How far along the surface a known place tells where maps are wrong, of sqrt(area), and the variance of what it does not tell,
-// of that at the place itself. On left-out meshes, see docs/accuracy.md.
-constexpr double correlated = 0.2, untold = 0.1;
 constexpr double wrong_map = 0.1;  // of sqrt(area): maps that carry known landmarks so far astray count less
 
 struct Opinion {
@@ -87,70 +83,24 @@ double trust_in(const CarriedMarks& carried) {
   return 1 / (1 + std::exp((carried.residual - doubtful_residual) / residual_width));
 }
 
-struct KnownPlaces {
-  std::vector<int32_t> landmark;
-  std::vector<SurfacePoint> place;
-};
-
-KnownPlaces known_places(const Placement& placement) {
-  KnownPlaces known;
-  for (size_t l = 0; l < placement.fixed.size(); ++l)
-    if (placement.is_fixed(l))
-      known.landmark.push_back(static_cast<int32_t>(l)), known.place.push_back(*placement.fixed[l]);
-  return known;
+// How far from a known place a map carries its landmark, squared; 0 for a mark that the shape lacks.
+double squared_error(const SurfacePoint& place, const std::vector<CarriedPlace>& carried,
+                     const TriangleMesh& surface) {
+  Vector3 sum = Vector3::Zero();
+  double total = 0;
+  for (const auto& [at, share] : carried) sum += share * at.position, total += share;
+  return total > 0 ? (position_of(surface, place) - sum / total).squaredNorm() : 0;
 }
 
-// How much of the errors at known places each placed landmark shares: kriging by a Gaussian of the way along the surface.
-Matrix shared_errors(const SurfaceAnalysis& analysis, const Placement& placement, const KnownPlaces& known,
-                     const Execution& execution) {
-  const RowMatrixf fields = analysis.metric->distances(known.place, execution);
-  const auto likeness = [&](Eigen::Index k, int32_t vertex) {
-    return std::exp(-std::pow(fields(k, std::max(vertex, 0)) / correlated, 2) / 2);
-  };
-  const auto count = static_cast<Eigen::Index>(known.landmark.size());
-  const auto L = static_cast<Eigen::Index>(placement.vertex.size());
-  Matrix among(count, count), to_all(count, L);
-  for (Eigen::Index k = 0; k < count; ++k) {
-    for (Eigen::Index o = 0; o < count; ++o)
-      among(k, o) = likeness(k, nearest_corner(analysis.surface(), known.place[o]));
-    for (Eigen::Index l = 0; l < L; ++l) to_all(k, l) = likeness(k, placement.vertex[l]);
-  }
-  among = (among + among.transpose().eval()) / 2 + untold * Matrix::Identity(count, count);
-  return among.ldlt().solve(to_all).transpose();
-}
-
-// Where known places lie from where a map carries them; nothing for a mark that the shape lacks.
-std::vector<Vector3> errors_at(const KnownPlaces& known, const CarriedMarks& carried,
-                               const TriangleMesh& surface) {
-  std::vector<Vector3> errors;
-  for (size_t k = 0; k < known.landmark.size(); ++k) {
-    Vector3 sum = Vector3::Zero();
-    double total = 0;
-    for (const auto& [at, share] : carried.places[known.landmark[k]])
-      sum += share * at.position, total += share;
-    errors.push_back(total > 0 ? Vector3(position_of(surface, known.place[k]) - sum / total)
-                               : Vector3::Zero());
-  }
-  return errors;
-}
-
-// The marks of each map move by the errors that it makes at known places, as far as these are near; maps that are far off there count less.
-void pull_to_known(const SurfaceAnalysis& analysis, const Placement& placement, const Execution& execution,
-                   std::vector<CarriedMarks>& carried, std::vector<double>& weights) {
-  const KnownPlaces known = known_places(placement);
-  if (known.landmark.empty()) return;
-  const Matrix shared = shared_errors(analysis, placement, known, execution);
+// Maps that carry known landmarks astray count less.
+void trust_known(const Placement& placement, const TriangleMesh& surface,
+                 const std::vector<CarriedMarks>& carried, std::vector<double>& weights) {
   for (size_t s = 0; s < carried.size(); ++s) {
-    const std::vector<Vector3> errors = errors_at(known, carried[s], analysis.surface());
-    double squares = 0;
-    for (const Vector3& one : errors) squares += one.squaredNorm() / static_cast<double>(errors.size());
-    weights[s] /= 1 + squares / (wrong_map * wrong_map);
-    for (size_t l = 0; l < carried[s].places.size(); ++l) {
-      Vector3 shift = Vector3::Zero();
-      for (size_t k = 0; k < errors.size(); ++k)
-        shift += shared(static_cast<Eigen::Index>(l), static_cast<Eigen::Index>(k)) * errors[k];
-      for (auto& place : carried[s].places[l]) place.at.position += shift;
-    }
+    double squares = 0, known = 0;
+    for (size_t l = 0; l < placement.fixed.size(); ++l)
+      if (placement.is_fixed(l))
+        squares += squared_error(*placement.fixed[l], carried[s].places[l], surface), ++known;
+    if (known > 0) weights[s] /= 1 + squares / known / (wrong_map * wrong_map);
   }
 }
 
@@ -209,7 +159,7 @@ void join_carried_marks(const LandmarkModel& model, const SurfaceAnalysis& analy
                         Placement& placement, const Execution& execution) {
   const bool best = quality == Quality::best;
   auto maps = maps_from(model, analysis, placement, best ? thorough : quick, execution);
-  auto carried = carry_marks(model.atlas, maps, analysis, execution);
+  const auto carried = carry_marks(model.atlas, maps, analysis, execution);
   if (carried.empty()) return;
   const MapFit fit = fit_of(model, analysis, maps);
   placement.bulge_agreement = static_cast<float>(fit.bulge_agreement);
@@ -218,8 +168,8 @@ void join_carried_marks(const LandmarkModel& model, const SurfaceAnalysis& analy
   for (size_t l = 0; l < placement.vertex.size(); ++l)
     if (placement.vertex[l] >= 0) placed.push_back(static_cast<int32_t>(l));
   std::vector<double> weights = weights_of(carried);
-  pull_to_known(analysis, placement, execution, carried, weights);
   const TriangleMesh& surface = analysis.surface();
+  trust_known(placement, surface, carried, weights);
   const MatrixX3 normals = area_normals(surface);
   std::vector<SurfaceQuery> queries;
   for (size_t p = 0; p < placed.size(); ++p) {
