@@ -101,7 +101,7 @@ Kind kind_of(const std::string& name) {
       kind.side = 'l';
     else if (word == "r" || word == "right")
       kind.side = 'r';
-    else if (!empty_words().contains(word))
+    else if (word.size() > 1 && !empty_words().contains(word))
       rest += word;
   }
   if (rest.starts_with("hand") && rest.size() > 4) rest.erase(0, 4);  // LeftHandIndex1
@@ -226,7 +226,8 @@ std::vector<std::string> bone_roles(const std::vector<Joint>& joints) { return R
 
 std::vector<std::string> names_by_role(const std::vector<Joint>& joints, BoneNames convention,
                                        size_t& known) {
-  const std::vector<std::string> roles = bone_roles(joints);
+  const bool keeps_own = convention == BoneNames::as_trained;
+  const auto roles = keeps_own ? std::vector<std::string>(joints.size()) : bone_roles(joints);
   std::vector<std::string> names;
   known = 0;
   for (size_t j = 0; j < joints.size(); ++j) {
