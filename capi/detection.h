@@ -10,6 +10,7 @@
 #include "landmarks/regions.h"
 #include "mesh.h"
 #include "model.h"
+#include "output_file.h"
 
 namespace focal {
 
@@ -33,15 +34,6 @@ struct DetectionObject {
   Lazy<DistanceFields> distances_;
 };
 
-// The caller's own glTF, or a plain .glb where there is none.
-struct SourceFile {
-  std::vector<std::byte> bytes;
-  std::vector<GltfPrimitive> primitives;
-  GltfLimits limits;
-};
-
-// Throws invalid_argument when the path promises the other kind of file.
-SourceFile source_file(const MeshObject& mesh, const std::filesystem::path& path);
-std::vector<std::byte> with_landmarks(const DetectionObject& object, const SourceFile& source);
+void put_landmarks(const DetectionObject& object, SourceFile& source);
 
 }  // namespace focal

@@ -1,7 +1,6 @@
 // What leaves a detection in bulk: vote maps and files.
 #include <algorithm>
 #include <mutex>
-#include <span>
 #include <string>
 #include <utility>
 
@@ -10,7 +9,6 @@
 #include "base/error.h"
 #include "boundary.h"
 #include "detection.h"
-#include "gltf/writer.h"
 #include "vote_colours.h"
 
 namespace focal {
@@ -38,20 +36,6 @@ std::vector<GltfLandmark> landmarks_of(const DetectionObject& object) {
   return result;
 }
 
-bool is_glb(std::span<const std::byte> file) {
-  return file.size() >= 4 && std::string_view(reinterpret_cast<const char*>(file.data()), 4) == "glTF";
-}
-
-// The content stays of the kind it came as, so a path that promises the other kind would mislead.
-void check_suffix(const std::filesystem::path& path, bool binary) {
-  const auto suffix = path.extension();
-  const char* wanted = binary ? ".glb" : ".gltf";
-  if (suffix == (binary ? ".gltf" : ".glb"))
-    throw Error(Status::invalid_argument,
-                "the mesh is written as " + std::string(wanted) + ", the path ends in " + suffix.string(),
-                std::string("choose a path that ends in ") + wanted);
-}
-
 // Landmarks x vertices of the proxy, as values of the full surface; the largest of each is 1.
 RowMatrixf carried_over(const RowMatrixf& votes, const Proxy& proxy, const Execution& execution) {
   const auto places = coarse_place_of_vertices(proxy, execution);
@@ -67,18 +51,8 @@ RowMatrixf carried_over(const RowMatrixf& votes, const Proxy& proxy, const Execu
 
 }  // namespace
 
-SourceFile source_file(const MeshObject& mesh, const std::filesystem::path& path) {
-  SourceFile source{mesh.file, mesh.primitives, mesh.limits};
-  if (source.bytes.empty()) {
-    source.bytes = write_glb(mesh.mesh->source);
-    source.primitives = read_gltf_memory(source.bytes).primitives;
-  }
-  check_suffix(path, is_glb(source.bytes));
-  return source;
-}
-
-std::vector<std::byte> with_landmarks(const DetectionObject& object, const SourceFile& source) {
-  return add_landmarks(source.bytes, source.primitives, landmarks_of(object), source.limits);
+void put_landmarks(const DetectionObject& object, SourceFile& source) {
+  source.document.add_landmarks(source.primitives, landmarks_of(object));
 }
 
 const RowMatrixf& DetectionObject::full_votes() const {
@@ -113,7 +87,9 @@ focal_status focal_detection_write_gltf(const focal_detection* detection, const 
   return guarded([&] {
     const auto object = resolve<DetectionObject>(detection);
     const auto file = path_of(path);
-    write_file_atomically(file, with_landmarks(*object, source_file(*object->mesh, file)));
+    SourceFile source = source_file(*object->mesh, file);
+    put_landmarks(*object, source);
+    object->model->context->report_warnings(write_document(source.document, file));
   });
 }
 

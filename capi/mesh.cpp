@@ -1,18 +1,16 @@
 #include "mesh.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <limits>
 #include <span>
 #include <utility>
 
 #include "arguments.h"
-#include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/stopwatch.h"
 #include "boundary.h"
-#include "gltf/animation.h"
-#include "gltf/skin.h"
+#include "gltf/document.h"
+#include "mesh/closest_point.h"
 #include "structs.h"
 #include "surface_points.h"
 #include "task.h"
@@ -221,57 +219,30 @@ focal_mesh* made_of(const focal_context* context, std::span<const focal_mesh_des
   return publish(object);
 }
 
-struct LoadedFile {
-  GltfMesh gltf;
-  std::vector<std::byte> bytes;  // when they are to be kept
-  std::optional<std::filesystem::path> folder = std::nullopt;
-  std::string name = {};
-};
-
-LoadedFile read_path(const std::filesystem::path& path, const GltfReadParams& how, bool keep) {
-  auto bytes = read_file(path, how.limits.file_bytes);
-  // Only by its path does a file find those beside it.
-  GltfMesh gltf = how.allow_external_files ? read_gltf(path, how) : read_gltf_memory(bytes, how);
-  if (!keep) bytes.clear();
-  LoadedFile loaded{std::move(gltf), std::move(bytes)};
-  if (how.allow_external_files) loaded.folder = path.parent_path();
-  loaded.name = text_of(path.filename());
-  return loaded;
-}
-
-LoadedFile read_bytes(std::span<const std::byte> bytes, const GltfReadParams& how, bool keep) {
-  GltfMesh gltf = read_gltf_memory(bytes, how);
-  if (!keep) bytes = {};
-  return {std::move(gltf), {bytes.begin(), bytes.end()}};
-}
-
 // Moves what has a skin to where an animation has it at a time.
-void pose(LoadedFile& loaded, const std::string& animation, double time, const GltfLimits& limits) {
-  const auto rig = read_gltf_rig(loaded.bytes, loaded.gltf.primitives, limits, loaded.folder);
-  std::vector<std::string> names;
-  for (const GltfAnimation& one : read_gltf_animations(loaded.bytes, limits, loaded.folder)) {
-    names.push_back(one.name);
+void pose(const GltfDocument& document, const std::string& animation, double time, GltfMesh& gltf) {
+  const auto rig = document.rig(gltf.primitives);
+  const GltfAnimations found = document.animations();
+  std::string names;
+  for (const Clip& one : found.clips) {
+    names += (names.empty() ? "'" : ", '") + one.name + "'";
     if (!rig || one.name != animation) continue;
+    const std::vector<Matrix4> world = world_transforms(found.tree, &one, time);
     std::vector<Matrix4> transforms;
-    for (const Joint& joint : rig->joints) {
-      const auto track = one.joints.find(joint.name);
-      transforms.push_back(track == one.joints.end()
-                               ? Matrix4(Matrix4::Identity())
-                               : Matrix4(at_time(one.times, track->second, time) * joint.bind.inverse()));
-    }
-    loaded.gltf.mesh.positions = skinned(loaded.gltf.mesh.positions, rig->influences, transforms);
+    for (const Joint& joint : rig->joints) transforms.push_back(world[joint.node] * joint.bind.inverse());
+    gltf.mesh.positions = skinned(gltf.mesh.positions, rig->influences, transforms);
     return;
   }
-  std::string hint = rig ? "it has: " : "it has no skin that an animation could move";
-  for (const std::string& name : names)
-    if (rig) hint += (&name == &names[0] ? "'" : ", '") + name + "'";
+  std::string hint = "it has no skin that an animation could move";
+  if (rig) hint = names.empty() ? "it has no animations" : "it has: " + names;
   throw Error(Status::invalid_argument, "the file has no animation '" + animation + "' of a skinned mesh",
-              rig && names.empty() ? "it has no animations" : hint);
+              hint);
 }
 
-// read(how, keep) gives a LoadedFile.
-template <class Read>
-focal_mesh* load(const focal_context* context, const focal_mesh_params* given, Read&& read) {
+// open(how) gives a GltfDocument.
+template <class Open>
+focal_mesh* load(const focal_context* context, const focal_mesh_params* given, std::string name,
+                 Open&& open) {
   const auto running = resolve<ContextObject>(context);
   const focal_mesh_params params = checked(given);
   const GltfReadParams how = read_params(params);
@@ -281,26 +252,22 @@ focal_mesh* load(const focal_context* context, const focal_mesh_params* given, R
   object->memory_budget = running->memory_budget;
   Stopwatch watch;
   execution.begin_stage("reading", 0, 0.5);
-  LoadedFile loaded = read(how, params.keep_source_file != 0 || params.pose_animation);
+  const auto document = std::make_shared<const GltfDocument>(open(how));
+  GltfMesh gltf = document->mesh();
   execution.check_cancelled();
-  if (params.pose_animation) {
-    pose(loaded, params.pose_animation, params.pose_time, how.limits);
-    loaded.bytes.clear();
-  }
+  if (params.pose_animation) pose(*document, params.pose_animation, params.pose_time, gltf);
   object->load_seconds = watch.lap();
-  object->name = std::move(loaded.name);
-  object->file = std::move(loaded.bytes);
-  object->primitives = std::move(loaded.gltf.primitives);
+  object->name = std::move(name);
+  if (params.keep_source_file != 0 && !params.pose_animation) object->document = document;
+  object->primitives = std::move(gltf.primitives);
   for (const GltfPrimitive& one : object->primitives)
     object->parts.push_back({static_cast<uint64_t>(one.first_vertex), static_cast<uint64_t>(one.vertex_count),
                              static_cast<uint64_t>(one.first_triangle),
                              static_cast<uint64_t>(one.triangle_count)});
-  object->warnings = std::move(loaded.gltf.warnings);
-  for (std::string& name : loaded.gltf.hidden)
-    object->left_out.push_back({FOCAL_SCENERY_HIDDEN, std::move(name)});
-  object->limits = how.limits;
-  object->folder = std::move(loaded.folder);
-  finish(*object, std::move(loaded.gltf.mesh), std::move(loaded.gltf.pieces), params, execution);
+  object->warnings = std::move(gltf.warnings);
+  for (std::string& hidden : gltf.hidden)
+    object->left_out.push_back({FOCAL_SCENERY_HIDDEN, std::move(hidden)});
+  finish(*object, std::move(gltf.mesh), std::move(gltf.pieces), params, execution);
   running->report_warnings(object->warnings);
   return publish(object);
 }
@@ -343,8 +310,8 @@ focal_status focal_mesh_load_gltf(const focal_context* context, const char* path
     require(out_mesh, "out_mesh");
     const auto file = path_of(path);
     naming_file(file, [&] {
-      *out_mesh = load(context, params,
-                       [&](const GltfReadParams& how, bool keep) { return read_path(file, how, keep); });
+      *out_mesh = load(context, params, text_of(file.filename()),
+                       [&](const GltfReadParams& how) { return GltfDocument::open(file, how); });
     });
   });
 }
@@ -354,8 +321,9 @@ focal_status focal_mesh_load_gltf_memory(const focal_context* context, const voi
   return guarded([&] {
     require(out_mesh, "out_mesh");
     const auto bytes = bytes_of(data, size);
-    *out_mesh = load(context, params,
-                     [&](const GltfReadParams& how, bool keep) { return read_bytes(bytes, how, keep); });
+    *out_mesh = load(context, params, "", [&](const GltfReadParams& how) {
+      return GltfDocument({bytes.begin(), bytes.end()}, how);
+    });
   });
 }
 
@@ -389,5 +357,20 @@ focal_status focal_mesh_point_at_vertex(const focal_mesh* mesh, uint32_t vertex,
     require(out_point, "out_point");
     const auto prepared = resolve<MeshObject>(mesh)->mesh;
     *out_point = point_out(to_source(*prepared, vertex_in(*prepared, vertex, "the point")));
+  });
+}
+
+focal_status focal_mesh_closest_point(const focal_mesh* mesh, const float* position,
+                                      focal_surface_point* out_point) {
+  return guarded([&] {
+    require(position, "position");
+    require(out_point, "out_point");
+    const auto prepared = resolve<MeshObject>(mesh)->mesh;
+    const Vector3 place(position[0], position[1], position[2]);
+    if (!place.allFinite())
+      throw Error(Status::invalid_argument, "the position is not finite", "give three finite numbers");
+    const SurfaceQuery query{(place - prepared->centre) / prepared->scale, Vector3::Zero()};
+    const double radius = 0.1;  // surfaces have area 1
+    *out_point = point_out(to_source(*prepared, closest_points(prepared->surface, {&query, 1}, radius)[0]));
   });
 }

@@ -1,14 +1,11 @@
 // focal_mesh: the caller's triangles, the surface made of them, and the file they came from.
 #pragma once
-#include <cstddef>
-#include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "context.h"
-#include "gltf/reader.h"
+#include "gltf/document.h"
 #include "handles.h"
 #include "mesh/prepare.h"
 
@@ -36,15 +33,13 @@ struct MeshObject {
   std::vector<float> positions;  // vertex_count x 3, as the caller may read them
   double mean_edge_length = 0, surface_area = 0;
   double load_seconds = 0, repair_seconds = 0;
-  std::vector<std::string> warnings;      // of reading, then of preparing
-  std::string name;                       // of the file it came from, for messages; or none
-  std::vector<std::byte> file;            // the caller's glTF; empty when there is none or it was not kept
+  std::vector<std::string> warnings;  // of reading, then of preparing
+  std::string name;                   // of the file it came from, for messages; or none
+  std::shared_ptr<const GltfDocument>
+      document;                           // the caller's glTF; null when there is none or it was not kept
   std::vector<GltfPrimitive> primitives;  // of that file
   std::vector<LeftOut> left_out;
   std::vector<MeshPart> parts;
-  GltfLimits limits;  // it was read with
-  std::optional<std::filesystem::path>
-      folder;  // of the files beside a .gltf, when it was allowed to read them
 };
 
 }  // namespace focal

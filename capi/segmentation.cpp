@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "boundary.h"
 #include "detection.h"
-#include "gltf/writer.h"
+#include "gltf/document.h"
 #include "skeleton/rig_transfer.h"
 #include "structs.h"
 #include "task.h"
@@ -78,9 +78,7 @@ focal_status focal_detection_write_segments_gltf(const focal_detection* detectio
   return guarded([&] {
     const auto object = resolve<DetectionObject>(detection);
     const auto file = path_of(path);
-    if (file.extension() == ".gltf")
-      throw Error(Status::invalid_argument, "the parts are written as .glb, the path ends in .gltf",
-                  "choose a path that ends in .glb");
+    check_suffix(file, true);
     const auto labels = segment(*object, method, object->model->context->execution_with(nullptr));
     write_file_atomically(file, coloured(object->mesh->mesh->source, labels));
   });

@@ -6,15 +6,12 @@
 #include <utility>
 
 #include "arguments.h"
-#include "base/atomic_file.h"
 #include "base/error.h"
 #include "boundary.h"
-#include "gltf/animation.h"
-#include "gltf/skin.h"
-#include "gltf/vrm.h"
-#include "gltf/writer.h"
+#include "gltf/document.h"
 #include "skeleton/bone_roles.h"
 #include "skeleton/ground_root.h"
+#include "skeleton/joint_match.h"
 #include "skeleton/retarget.h"
 #include "skeleton_template.h"
 #include "structs.h"
@@ -123,39 +120,113 @@ void judge(SkeletonObject& object, const RigMeasures& measures) {
   object.rig.warnings.push_back(text);
 }
 
+std::vector<std::string> names_of(const std::vector<Joint>& joints) {
+  std::vector<std::string> names;
+  for (const Joint& joint : joints) names.push_back(joint.name);
+  return names;
+}
+
+// "'a', 'b', 'c' and 3 more"
+std::string listed(const std::vector<std::string>& names) {
+  constexpr size_t most = 6;
+  std::string text;
+  for (size_t i = 0; i < std::min(names.size(), most); ++i) text += (i ? ", '" : "'") + names[i] + "'";
+  return text + (names.size() > most ? " and " + std::to_string(names.size() - most) + " more" : "");
+}
+
+bool moves_joint(const Clip& clip, const std::vector<Joint>& joints) {
+  return std::any_of(clip.channels.begin(), clip.channels.end(), [&](const Channel& channel) {
+    return std::any_of(joints.begin(), joints.end(),
+                       [&](const Joint& joint) { return joint.node == channel.node; });
+  });
+}
+
 std::vector<JointAnimation> animations_for(const CharacterRig& rig, const PreparedMesh& target,
-                                           const MeshObject& character) {
-  if (character.file.empty())
+                                           const MeshObject& character, std::vector<std::string>& warnings) {
+  if (!character.document)
     throw Error(Status::invalid_argument, "the character has no glTF file to take animations from",
                 "load it with focal_mesh_load_gltf and focal_mesh_params.keep_source_file 1");
-  const auto source = read_gltf_rig(character.file, character.primitives, character.limits, character.folder);
+  const auto source = character.document->rig(character.primitives);
   if (!source)
     throw Error(Status::invalid_argument, "the character that animations are to come from has no skin",
                 "pass a rigged and animated character");
+  const GltfAnimations found = character.document->animations();
+  warnings.insert(warnings.end(), found.warnings.begin(), found.warnings.end());
+  const ClipSource from{source->joints, found.tree};
   std::vector<JointAnimation> result;
-  for (GltfAnimation& one : read_gltf_animations(character.file, character.limits, character.folder))
-    result.push_back(
-        {one.name, one.times,
-         retarget(source->joints, one.joints, rig.rig.joints, target.scale / character.mesh->scale)});
+  std::vector<std::string> missing, still;
+  for (const Clip& clip : found.clips) {
+    if (!moves_joint(clip, source->joints)) {
+      still.push_back(clip.name);
+      continue;
+    }
+    Retargeted made = retarget(from, clip, rig.rig.joints, rig.rest, target.scale / character.mesh->scale);
+    missing = std::move(made.missing);
+    result.push_back({clip.name, std::move(made.joints)});
+  }
+  if (!still.empty())
+    warnings.push_back("left out, since they move no joint of the character: " + listed(still));
+  if (!result.empty() && missing.size() == rig.rig.joints.size())
+    throw Error(
+        Status::invalid_argument,
+        "no joint of the skeleton (" + listed(missing) + ") is one of the animated character's (" +
+            listed(names_of(source->joints)) + ")",
+        "joints are matched by name: pass a character of the same skeleton, or of a known convention");
+  if (!result.empty() && !missing.empty())
+    warnings.push_back("the animations do not move joints that their character lacks: " + listed(missing));
+  if (result.empty()) warnings.push_back("the character has no animations");
   return result;
 }
 
-void put_skeleton(const SkeletonObject& object, SourceFile& source) {
-  if (object.keeps_joints) {
-    source.bytes = replace_weights(source.bytes, source.primitives, object.rig.rig, source.limits);
-    return;
+// The skeleton of the mesh's own file, if it has one that can be read: what is wrong with it is no reason not to give it another.
+std::optional<Rig> former_rig(const MeshObject& mesh) {
+  if (!mesh.document) return std::nullopt;
+  try {
+    return mesh.document->rig(mesh.primitives);
+  } catch (const Error&) {
+    return std::nullopt;
   }
-  GltfRig rig{&object.rig.rig, object.rig.tip, {}, object.animations, &object.mesh->mesh->source};
-  if (object.in_rest_pose) rig.pose = object.rig.rest;
-  source.bytes = add_skin(source.bytes, source.primitives, rig, source.limits);
-  for (GltfPrimitive& primitive : source.primitives) primitive.mirrored = false;  // turned in the file
+}
+
+// Clips of the mesh's own file that move a skeleton which no mesh follows any more.
+std::vector<std::string> clips_of_former_skeleton(const MeshObject& mesh, const std::vector<Joint>& joints) {
+  const auto former = former_rig(mesh);
+  std::vector<std::string> names;
+  if (!former || names_of(former->joints) == names_of(joints)) return names;  // rigged by this model before
+  try {
+    for (const Clip& clip : mesh.document->animations().clips)
+      if (moves_joint(clip, former->joints)) names.push_back(clip.name);
+  } catch (const Error&) {  // malformed ones stay as they are, too
+  }
+  return names;
+}
+
+// The joints of the mesh's own file that the new ones stand for.
+std::vector<ReplacedJoint> replaced_joints(const MeshObject& mesh, const std::vector<Joint>& joints) {
+  const auto former = former_rig(mesh);
+  if (!former) return {};
+  const JointMatch match = match_joints(names_of(joints), names_of(former->joints));
+  std::vector<ReplacedJoint> result(joints.size());
+  for (size_t j = 0; j < joints.size(); ++j)
+    if (match.there[j] >= 0)
+      result[j] = {former->joints[match.there[j]].node, former->joints[match.there[j]].bind};
+  return result;
 }
 
 // The mesh's own file with the skeleton, and with the landmarks where some were looked for.
-std::vector<std::byte> written(const SkeletonObject& object, const std::filesystem::path& path) {
+SourceFile with_skeleton(const SkeletonObject& object, const std::filesystem::path& path) {
   SourceFile source = source_file(*object.mesh, path);
-  put_skeleton(object, source);
-  return object.detection ? with_landmarks(*object.detection, source) : std::move(source.bytes);
+  const std::vector<Joint>& joints = object.rig.rig.joints;
+  if (object.keeps_joints) {
+    source.document.replace_weights(source.primitives, object.rig.rig);
+  } else {
+    GltfRig rig{&object.rig.rig, object.rig.tip, {}, object.animations, &object.mesh->mesh->source};
+    if (object.in_rest_pose) rig.pose = object.rig.rest;
+    rig.replaces = replaced_joints(*object.mesh, joints);
+    source.document.add_skin(source.primitives, rig);
+  }
+  if (object.detection) put_landmarks(*object.detection, source);
+  return source;
 }
 
 focal_joint to_abi(const CharacterRig& rig, size_t index) {
@@ -219,12 +290,15 @@ focal_status focal_skeleton_create(const focal_detection* detection, const focal
     if (how.rest_pose && object->rig.rest.empty())
       throw Error(Status::invalid_argument, "the template has no rest pose",
                   R"(give its joints a "rest": the way their bones point)");
-    if (character) {
-      object->animations = animations_for(object->rig, *object->mesh->mesh, *character);
-      if (object->animations.empty()) object->rig.warnings.push_back("the character has no animations");
-    }
+    if (character)
+      object->animations = animations_for(object->rig, *object->mesh->mesh, *character, object->rig.warnings);
     object->in_rest_pose = how.rest_pose != 0;
     rename_joints(how, object->rig);
+    const auto idle = clips_of_former_skeleton(*object->mesh, object->rig.rig.joints);
+    if (!idle.empty())
+      object->rig.warnings.push_back(
+          "animations of the file move its former skeleton, which the mesh does not follow any more: " +
+          listed(idle) + "; --animations (animations) plays them on the new one");
     judge(*object, measures);
     if (how.ground_root) put_root(how, *object);
     object->context->report_warnings(object->rig.warnings);
@@ -307,7 +381,8 @@ focal_status focal_skeleton_write_gltf(const focal_skeleton* skeleton, const cha
   return guarded([&] {
     const auto object = resolve<SkeletonObject>(skeleton);
     const auto file = path_of(path);
-    write_file_atomically(file, written(*object, file));
+    const SourceFile source = with_skeleton(*object, file);
+    object->context->report_warnings(write_document(source.document, file));
   });
 }
 
@@ -317,7 +392,8 @@ focal_status focal_skeleton_write_vrm(const focal_skeleton* skeleton, const char
     const auto object = resolve<SkeletonObject>(skeleton);
     const auto file = path_of(path);
     const auto& joints = object->rig.rig.joints;
-    write_file_atomically(
-        file, add_vrm(written(*object, file), joints, bone_roles(joints), meta, object->mesh->limits));
+    SourceFile source = with_skeleton(*object, file);
+    source.document.add_vrm(joints, bone_roles(joints), meta);
+    object->context->report_warnings(write_document(source.document, file));
   });
 }

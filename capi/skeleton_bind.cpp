@@ -6,7 +6,7 @@
 #include "arguments.h"
 #include "base/error.h"
 #include "boundary.h"
-#include "gltf/skin.h"
+#include "gltf/document.h"
 #include "skeleton.h"
 #include "skeleton/own_skeleton.h"
 #include "structs.h"
@@ -77,10 +77,10 @@ OwnSkeleton skeleton_in_file(const focal_bind_params& params, const MeshObject& 
       params.joint_tips || params.joint_moves)
     throw Error(Status::invalid_argument, "focal_bind_params.joint_names is NULL, other fields are not",
                 "give all joints, or none to take those of the mesh's own file");
-  if (mesh.file.empty())
+  if (!mesh.document)
     throw Error(Status::invalid_argument, "the mesh has no glTF file to take a skeleton from",
                 "pass joints, or load it with focal_mesh_load_gltf and focal_mesh_params.keep_source_file 1");
-  const auto rig = read_gltf_rig(mesh.file, mesh.primitives, mesh.limits, mesh.folder);
+  const auto rig = mesh.document->rig(mesh.primitives);
   if (!rig)
     throw Error(Status::invalid_argument, "the mesh has no skin, hence no joints to keep",
                 "rig it with a model, or pass joints");

@@ -8,7 +8,7 @@
 #include "arguments.h"
 #include "base/error.h"
 #include "boundary.h"
-#include "gltf/skin.h"
+#include "gltf/document.h"
 #include "mesh.h"
 #include "skeleton/teachers.h"
 #include "structs.h"
@@ -61,11 +61,11 @@ void add(focal_training_set* handle, const focal_mesh* mesh, const void* marks, 
 }
 
 RiggedMesh rigged(const MeshObject& mesh) {
-  if (mesh.file.empty())
+  if (!mesh.document)
     throw Error(Status::invalid_argument, "the mesh has no glTF file to take a skeleton from",
                 "load it with focal_mesh_load_gltf and focal_mesh_params.keep_source_file 1");
   int64_t invalid_weights = 0;
-  auto rig = read_gltf_rig(mesh.file, mesh.primitives, mesh.limits, mesh.folder, &invalid_weights);
+  auto rig = mesh.document->rig(mesh.primitives, &invalid_weights);
   if (!rig)
     throw Error(Status::invalid_argument, "the mesh has no skin",
                 "add a rigged character, or mark landmarks on the mesh with focal_training_set_add");

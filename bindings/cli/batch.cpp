@@ -34,19 +34,24 @@ std::pair<size_t, size_t> shard_of(const std::string& text) {
   return {index - 1, count};
 }
 
-std::vector<fs::path> meshes_in(const std::string& folder, const std::string& shard) {
+struct Found {
+  std::vector<fs::path> meshes, others;  // in order
+};
+
+Found files_in(const std::string& folder, const std::string& shard) {
   std::error_code error;
   std::vector<fs::path> files;
+  Found found;
   for (const auto& entry : fs::directory_iterator(folder, error))
-    if (entry.path().extension() == ".glb" || entry.path().extension() == ".gltf")
-      files.push_back(entry.path());
+    if (entry.is_regular_file())
+      (is_gltf(entry.path().string()) ? files : found.others).push_back(entry.path());
   if (error) throw CommandError("cannot read the folder " + folder, error.message());
-  if (files.empty()) throw CommandError("no .glb or .gltf in " + folder, "pass a folder with meshes");
+  if (files.empty()) throw CommandError("no .glb, .gltf or .vrm in " + folder, "pass a folder with meshes");
   std::sort(files.begin(), files.end());
+  std::sort(found.others.begin(), found.others.end());
   const auto [index, count] = shard_of(shard);
-  std::vector<fs::path> mine;
-  for (size_t i = index; i < files.size(); i += count) mine.push_back(files[i]);
-  return mine;
+  for (size_t i = index; i < files.size(); i += count) found.meshes.push_back(files[i]);
+  return found;
 }
 
 // The mesh's own file with landmarks, and with a skeleton if asked for.
@@ -93,11 +98,15 @@ Json verdict_counts(const Json& list) {
   return counts;
 }
 
-void print_report(const Options& options, const Json& list, size_t kept, size_t failed) {
+void print_report(const Options& options, const Json& list, const std::vector<fs::path>& others, size_t kept,
+                  size_t failed) {
   const Json verdicts = verdict_counts(list);
   const size_t done = list.size() - failed - kept;
   if (options.json) {
-    Json report = {{"meshes", list}, {"done", done}, {"kept", kept}, {"failed", failed}};
+    Json skipped = Json::array();
+    for (const fs::path& other : others) skipped.push_back(other.string());
+    Json report = {
+        {"meshes", list}, {"done", done}, {"kept", kept}, {"failed", failed}, {"skipped", skipped}};
     if (options.rig) report["verdicts"] = verdicts;
     print_json(report);
   }
@@ -110,13 +119,17 @@ void print_report(const Options& options, const Json& list, size_t kept, size_t 
                                             : "")
               << "\n";
   std::cout << done << " done, " << kept << " there already, " << failed << " failed\n";
+  if (!others.empty())
+    std::cout << others.size() << " other file" << (others.size() == 1 ? "" : "s")
+              << " skipped, which are no .glb, .gltf or .vrm: " << others[0].filename().string()
+              << (others.size() > 1 ? ", ..." : "") << "\n";
   if (options.rig)
     std::cout << "rigs: " << verdicts["good"] << " good, " << verdicts["check"] << " to check, "
               << verdicts["failed"] << " failed\n";
 }
 
 void batch(const Options& options) {
-  const auto files = meshes_in(options.input, options.shard);
+  const auto [files, others] = files_in(options.input, options.shard);
   std::error_code error;
   fs::create_directories(options.output, error);
   if (error) throw CommandError("cannot make the folder " + options.output, error.message());
@@ -143,7 +156,7 @@ void batch(const Options& options) {
     list.push_back(std::move(entry));
   }
   progress.clear();
-  print_report(options, list, kept, failed);
+  print_report(options, list, others, kept, failed);
   if (failed > 0)
     throw CommandError(std::to_string(failed) + " of " + std::to_string(files.size()) + " meshes failed",
                        "the others are done; run it again after mending those");
@@ -164,10 +177,11 @@ void add_batch(CLI::App& app) {
           "Folder for the results, each under the name of its mesh; those that exist are not made again")
       ->type_name("FOLDER")
       ->required();
-  verb->add_flag("--rig", options->rig,
-                 "Also a skeleton and skin weights: needs a model of rigged characters");
+  CLI::Option* rig = verb->add_flag("--rig", options->rig,
+                                    "Also a skeleton and skin weights: needs a model of rigged characters");
   verb->add_flag("--keep-failed", options->keep_failed,
-                 "With --rig: write a file even where the verdict is 'failed'");
+                 "With --rig: write a file even where the verdict is 'failed'")
+      ->needs(rig);
   verb->add_option("--shard", options->shard, "Only part I of N of the files, to share the work")
       ->type_name("I/N");
   add_quality_option(*verb, options->quality);

@@ -1,6 +1,8 @@
 // focal convert: one landmark file format into another, or a mesh into the closed surface round it.
 #include <iostream>
 
+#include "command_error.h"
+#include "files.h"
 #include "landmark_files.h"
 #include "marked_mesh.h"
 #include "options.h"
@@ -12,8 +14,6 @@ namespace {
 struct Options : CommonOptions {
   std::string in, out;
 };
-
-bool is_gltf(const std::string& path) { return path.ends_with(".glb") || path.ends_with(".gltf"); }
 
 // To look at what stands for a character of many parts in the analysis.
 void convert_to_wrap(const Options& options) {
@@ -37,6 +37,9 @@ void convert_to_wrap(const Options& options) {
 
 void convert(const Options& options) {
   if (is_gltf(options.in) && is_gltf(options.out)) return convert_to_wrap(options);
+  if (options.lenient || options.keep_scenery || options.surface != FOCAL_SURFACE_AUTO)
+    throw CommandError("--lenient, --surface and --keep-scenery are for meshes",
+                       "leave them out where landmark files are converted");
   const LandmarkFormat target = landmark_format_of(options.out);
   check_output_folder(options.out);
   const LandmarkFile file = read_landmark_file(options.in);
@@ -67,7 +70,7 @@ void add_convert(CLI::App& app) {
       ->type_name("")
       ->required();
   add_mesh_options(*verb, *options);
-  add_common_options(*verb, *options);
+  add_common_options(*verb, *options, false);
   verb->callback([options] { convert(*options); });
 }
 

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "files.h"
 #include "landmark_files.h"
 #include "landmark_text.h"
 #include "marked_mesh.h"
@@ -100,8 +101,6 @@ Landmark file_landmark(const focal_landmark& landmark) {
   mark.position = Position{tidy(xyz[0]), tidy(xyz[1]), tidy(xyz[2])};
   return mark;
 }
-
-bool is_gltf(const std::string& path) { return path.ends_with(".glb") || path.ends_with(".gltf"); }
 
 void write_output(const focal_detection* detection, const Options& options) {
   if (is_gltf(options.output)) return check(focal_detection_write_gltf(detection, options.output.c_str()));

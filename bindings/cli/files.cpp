@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
@@ -67,6 +68,16 @@ void sync_folder(const fs::path& folder) {
 }
 
 }  // namespace
+
+bool has_ending(std::string_view path, std::string_view ending) {
+  if (path.size() < ending.size()) return false;
+  return std::equal(ending.rbegin(), ending.rend(), path.rbegin(),
+                    [](char a, char b) { return a == (b >= 'A' && b <= 'Z' ? b + 'a' - 'A' : b); });
+}
+
+bool is_gltf(std::string_view path) {
+  return has_ending(path, ".glb") || has_ending(path, ".gltf") || has_ending(path, ".vrm");
+}
 
 std::string read_text_file(const std::string& path) {
   std::error_code code;

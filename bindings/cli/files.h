@@ -5,6 +5,12 @@
 
 namespace focal_cli {
 
+// Whatever the case of the path; the ending is in lower case.
+bool has_ending(std::string_view path, std::string_view ending);
+
+// .glb, .gltf, .vrm
+bool is_gltf(std::string_view path);
+
 std::string read_text_file(const std::string& path);
 
 // Writes beside the target and renames over it, so that no reader ever sees half a file and a failure keeps

@@ -3,6 +3,7 @@
 #include <fstream>
 #include <iostream>
 
+#include "files.h"
 #include "marked_mesh.h"
 #include "models.h"
 #include "options.h"
@@ -17,10 +18,12 @@ struct Options : CommonOptions {
   std::string file;
 };
 
+// What is plainly no model is looked at as a mesh: the library says what it is.
 bool is_mesh(const std::string& path) {
-  std::array<char, 4> magic{};
+  std::array<char, 8> magic{};
   std::ifstream(path, std::ios::binary).read(magic.data(), magic.size());
-  return path.ends_with(".gltf") || path.ends_with(".glb") || std::string_view(magic.data(), 4) == "glTF";
+  const std::string_view begin(magic.data(), magic.size());
+  return is_gltf(path) || begin.starts_with("glTF") || (begin != "FOCALMDL" && !has_ending(path, ".focal"));
 }
 
 Json model_json(const focal_model* model, const std::string& path) {
@@ -144,7 +147,7 @@ void add_info(CLI::App& app) {
       ->type_name("")
       ->required();
   add_mesh_options(*verb, *options);
-  add_common_options(*verb, *options);
+  add_common_options(*verb, *options, false);
   verb->callback([options] { info(*options); });
 }
 

@@ -15,12 +15,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-bool ends_with(const std::string& path, std::string_view ending) {
-  if (path.size() < ending.size()) return false;
-  return std::equal(ending.rbegin(), ending.rend(), path.rbegin(),
-                    [](char a, char b) { return a == (b >= 'A' && b <= 'Z' ? b + 'a' - 'A' : b); });
-}
-
 Json own_json_of(const Landmark& mark) {
   Json out = {{"name", mark.name}};
   if (!mark.status.empty()) out["status"] = mark.status;
@@ -82,11 +76,11 @@ void check_names_differ(const LandmarkFile& file) {
 }  // namespace
 
 LandmarkFormat landmark_format_of(const std::string& path) {
-  if (ends_with(path, ".mrk.json")) return LandmarkFormat::slicer_json;
-  if (ends_with(path, ".json")) return LandmarkFormat::own_json;
-  if (ends_with(path, ".fcsv")) return LandmarkFormat::slicer_fcsv;
-  if (ends_with(path, ".csv")) return LandmarkFormat::csv;
-  if (ends_with(path, ".pp")) return LandmarkFormat::meshlab;
+  if (has_ending(path, ".mrk.json")) return LandmarkFormat::slicer_json;
+  if (has_ending(path, ".json")) return LandmarkFormat::own_json;
+  if (has_ending(path, ".fcsv")) return LandmarkFormat::slicer_fcsv;
+  if (has_ending(path, ".csv")) return LandmarkFormat::csv;
+  if (has_ending(path, ".pp")) return LandmarkFormat::meshlab;
   throw CommandError("the ending of '" + path + "' names no landmark format",
                      "use .landmarks.json, .mrk.json, .fcsv, .csv or .pp");
 }

@@ -37,7 +37,7 @@ void add_mesh_options(CLI::App& verb, MeshOptions& options) {
       "stand apart, which are left out otherwise");
 }
 
-void add_common_options(CLI::App& verb, CommonOptions& options) {
+void add_common_options(CLI::App& verb, CommonOptions& options, bool makes_choices) {
   // The parser alone would turn -3 into a large seed without a word.
   const auto unsigned_only = [](std::string& text) {
     return text.starts_with('-') ? "'" + text + "' is negative" : std::string();
@@ -57,6 +57,7 @@ void add_common_options(CLI::App& verb, CommonOptions& options) {
   add_choice(verb, "--backend", options.backend, "Where to compute", "auto|cpu|cuda",
              {{"auto", FOCAL_BACKEND_AUTO}, {"cpu", FOCAL_BACKEND_CPU}, {"cuda", FOCAL_BACKEND_CUDA}});
   verb.get_option("--backend")->group("Common");
+  if (!makes_choices) return;
   verb.add_option("--seed", options.seed, "Of all random choices: same seed, same result")
       ->type_name("N")
       ->check(CLI::Validator(unsigned_only, ""))

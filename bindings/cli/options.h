@@ -35,7 +35,8 @@ void add_choice(CLI::App& verb, const std::string& name, int32_t& value, const s
 // For the verbs that read meshes: --lenient, and with add_mesh_options also --surface and --keep-scenery.
 void add_lenient_option(CLI::App& verb, MeshOptions& options);
 void add_mesh_options(CLI::App& verb, MeshOptions& options);
-void add_common_options(CLI::App& verb, CommonOptions& options);
+// makes_choices: random ones, so that --seed means something.
+void add_common_options(CLI::App& verb, CommonOptions& options, bool makes_choices = true);
 
 // Says on stderr when the backend that was asked for could not be had.
 Context make_context(const CommonOptions& options);

@@ -135,13 +135,16 @@ void add_train(CLI::App& app) {
   const auto options = std::make_shared<Options>();
   verb->add_option("SET", options->set, "Folder with set.json, NAME.glb and NAME.landmarks.json")
       ->type_name("");
-  verb->add_option("--rigs", options->rigs,
-                   "Instead of SET: rigged characters of one skeleton, .glb; one is enough. Learns their "
-                   "skeleton and skin "
-                   "weights for 'focal rig', with landmarks that follow from them")
-      ->type_name("A.glb B.glb ...");
+  CLI::Option* rigs =
+      verb->add_option("--rigs", options->rigs,
+                       "Instead of SET: rigged characters of one skeleton, .glb; one is enough. Learns their "
+                       "skeleton and skin "
+                       "weights for 'focal rig', with landmarks that follow from them")
+          ->type_name("A.glb B.glb ...");
   verb->add_option("-o,--output", options->output, "Model file to write")->type_name("MODEL")->required();
   add_split_options(*verb, options->split, options->limit, "Meshes to learn from");
+  for (const char* of_sets : {"--split", "--limit"})
+    if (CLI::Option* option = verb->get_option_no_throw(of_sets)) option->excludes(rigs);
   add_train_options(*verb, *options);
   add_mesh_options(*verb, *options);
   add_common_options(*verb, *options);

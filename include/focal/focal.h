@@ -354,6 +354,11 @@ FOCAL_API focal_status focal_mesh_position_of(const focal_mesh* mesh, const foca
 FOCAL_API focal_status focal_mesh_point_at_vertex(const focal_mesh* mesh, uint32_t vertex,
                                                   focal_surface_point* out_point);
 
+/* The point of the surface nearest to a position (3 floats, in the mesh's coordinates); parts that are left out do not
+ * count. Milliseconds for a million triangles. Errors: INVALID_ARGUMENT (a position that is not finite). */
+FOCAL_API focal_status focal_mesh_closest_point(const focal_mesh* mesh, const float* position,
+                                                focal_surface_point* out_point);
+
 /* ---- Measures: what training learns from, to look at ---- */
 
 /* What describes the surroundings of a point, and what distances are; more may come, see focal_descriptor_count

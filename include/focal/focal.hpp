@@ -127,6 +127,12 @@ class Mesh : public Owner<focal_mesh, focal_mesh_destroy> {
     check(focal_mesh_point_at_vertex(handle_, vertex, &point));
     return point;
   }
+  // The point of the surface nearest to a position of 3 floats.
+  focal_surface_point closest_point(const float* position) const {
+    focal_surface_point point{};
+    check(focal_mesh_closest_point(handle_, position, &point));
+    return point;
+  }
   // vertices x focal_descriptor_dimension(descriptor), row-major.
   std::vector<float> describe(const Context& context, focal_descriptor descriptor,
                               const std::vector<uint32_t>& vertices, Task* task = nullptr) const {

@@ -17,8 +17,9 @@ struct Style {
   Kind kind;
   Make make;
   Hand hand;
-  double head_share;  // of the height, from chin to crown
-  double leg_share;   // of the height of the chin: up to the hip
+  double head_share;   // of the height, from chin to crown
+  double leg_share;    // of the height of the chin: up to the hip
+  double ankle_share;  // of the height of the hip
   double width, depth, limbs, shoulders, hips, belly, bust, muscle;
   double arms, hands, feet, neck, stance;
   double head_width, head_depth, nose, eyes;

@@ -11,10 +11,10 @@ constexpr double height = 1.7, degree = EIGEN_PI / 180;
 
 Kind random_kind(Random& random) {
   const double u = random.uniform(0, 1);
-  if (u < 0.26) return Kind::realistic;
-  if (u < 0.48) return Kind::stylised;
-  if (u < 0.73) return Kind::chibi;
-  if (u < 0.84) return Kind::mascot;
+  if (u < 0.34) return Kind::realistic;
+  if (u < 0.54) return Kind::stylised;
+  if (u < 0.75) return Kind::chibi;
+  if (u < 0.85) return Kind::mascot;
   return u < 0.94 ? Kind::robot : Kind::blocky;
 }
 
@@ -37,7 +37,7 @@ void shape_body(Style& s, Random& random) {
   const double cute = std::clamp((s.head_share - 0.13) / 0.3, 0.0, 1.0);
   const double stout = std::pow(random.uniform(-1, 1), 3);  // seldom thin or fat
   const bool monster = s.kind == Kind::mascot;
-  s.leg_share = 0.6 - 0.17 * cute + random.typical(-0.05, 0.05) - (monster ? random.uniform(0, 0.12) : 0);
+  s.leg_share = 0.635 - 0.2 * cute + random.typical(-0.05, 0.06) - (monster ? random.uniform(0, 0.12) : 0);
   const bool built = s.kind == Kind::robot || s.kind == Kind::blocky;
   const double wide = monster || built ? random.uniform(1, 1.35) : 1 + 0.35 * cute * random.uniform(0, 1);
   s.width = random.uniform(0.9, 1.08) * (1 + 0.3 * stout) * wide;
@@ -54,6 +54,7 @@ void shape_body(Style& s, Random& random) {
            (random.uniform(0, 1) < 0.07 ? 0.25 : 0);
   s.hands = random.typical(0.9, 1.15) + 0.6 * cute * random.uniform(0, 1) + (monster ? 0.25 : 0);
   s.feet = random.typical(0.9, 1.15) + 0.35 * cute * random.uniform(-0.4, 1) + (monster ? 0.2 : 0);
+  s.ankle_share = random.typical(0.078, 0.125) + 0.17 * cute * random.uniform(0.2, 1);
   s.neck = random.uniform(0.7, 1.25) * (1 - 0.75 * cute);
   s.stance = random.uniform(-0.012, 0.035);
 }
@@ -74,7 +75,9 @@ Style random_style(Random& random) {
   shape_body(s, random);
   shape_head(s, random);
   const double pose = random.uniform(0, 1);  // T, A or hanging
-  s.drop = pose < 0.35 ? random.uniform(-2, 6) : pose < 0.8 ? random.uniform(25, 58) : random.uniform(58, 76);
+  s.drop = pose < 0.45   ? random.uniform(-2, 6)
+           : pose < 0.85 ? random.uniform(25, 58)
+                         : random.uniform(58, 76);
   s.bend = random.uniform(0, 1) < 0.5 ? random.uniform(0, 6) : random.uniform(4, 26);
   const double make = random.uniform(0, 1);
   s.make = make < 0.5 ? Make::skin : make < 0.72 ? Make::pieces : Make::tubes;
@@ -92,7 +95,7 @@ Style random_style(Random& random) {
 
 void place_arm(Places& p, const Style& s, double torso, double tall) {
   const double w = p.width, reach = p.reach;
-  p.clavicle = {0.03 * w, p.neck.y() - 0.045 * torso, 0};
+  p.clavicle = {0.042 * w, p.neck.y() - 0.055 * torso, 0};
   p.shoulder = {0.168 * w * s.shoulders, p.neck.y() - 0.068 * torso, -0.018};
   p.arm = Vec3(std::cos(s.drop * degree), -std::sin(s.drop * degree), 0);
   const Vec3 flex = p.arm.cross(Vec3::UnitZ());
@@ -106,13 +109,13 @@ void place_arm(Places& p, const Style& s, double torso, double tall) {
 }
 
 void place_leg(Places& p, const Style& s, double hip_height, double tall) {
-  const double w = p.width, ankle = std::min(0.078 * (0.5 + 0.5 * s.feet), 0.26 * hip_height);
+  const double w = p.width, ankle = s.ankle_share * hip_height;
   const double limb = 0.082 * w * s.limbs;  // thick legs stand apart
   p.hip = {std::max(0.09 * w * s.hips, 0.8 * limb), hip_height, -0.005};
-  p.knee = p.hip + Vec3(0.012 + 0.5 * s.stance, -0.52 * (hip_height - ankle), 0.008);
+  p.knee = p.hip + Vec3(0.012 + 0.5 * s.stance, -0.505 * (hip_height - ankle), 0.008);
   p.ankle = {p.hip.x() + 0.018 + s.stance, ankle, -0.02};
   const double f = s.feet * tall;
-  p.toes = p.ankle + Vec3(0.013, -0.65 * ankle, 0.13 * f);
+  p.toes = p.ankle + Vec3(0.013, -0.65 * ankle, 0.12 * f);
   p.toe_tip = p.toes + Vec3(0.008, -0.005, 0.075 * f);
   p.sole = ankle;
 }

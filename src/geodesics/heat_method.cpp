@@ -70,7 +70,8 @@ FOCAL_MULTIVERSION(void add_faces_signed(const Faces& faces, const double* heat,
 }  // namespace
 
 HeatMethod::HeatMethod(const TriangleMesh& mesh, const Operators& operators, const Execution& execution,
-                       double time_factor, bool keep_negative_heat)
+                       double time_factor, bool keep_negative_heat,
+                       std::span<const std::pair<int32_t, int32_t>> bridges)
     : Distance(mesh), keep_negative_heat_(keep_negative_heat) {
   execution.check_cancelled();
   const auto symbolic = std::make_shared<const SymbolicFactor>(analyse_pattern(operators.L, {}, execution));
@@ -87,6 +88,22 @@ HeatMethod::HeatMethod(const TriangleMesh& mesh, const Operators& operators, con
   });
   execution.check_cancelled();
   sort_faces(operators);
+  const auto& row = heat_.permutation();
+  for (const auto& [a, b] : bridges)
+    bridges_.push_back(
+        {row[a], row[b], static_cast<float>((mesh.positions.row(a) - mesh.positions.row(b)).norm())});
+}
+
+// A bridge is an edge of weight 1 in L along which distance grows by the gap, away from the heat.
+void HeatMethod::add_bridges(const double* heat, float* rhs) const {
+  for (const Bridge& bridge : bridges_)
+    for (int j = 0; j < lanes; ++j) {
+      const int64_t from = int64_t{bridge.from} * lanes + j, to = int64_t{bridge.to} * lanes + j;
+      const float length = heat[from] > heat[to]   ? bridge.length
+                           : heat[from] < heat[to] ? -bridge.length
+                                                   : 0.0f;
+      rhs[from] -= length, rhs[to] += length;
+    }
 }
 
 HeatTime heat_time(const TriangleMesh& mesh, const Operators& operators, double time_factor) {
@@ -139,6 +156,7 @@ void HeatMethod::solve_block(std::span<const Source> sources, float* out, const 
     add_faces_signed(faces, heat, distance);
   else
     add_faces(faces, heat, distance);
+  add_bridges(heat, distance);
   execution.check_cancelled();
   poisson_.solve_block(distance);
   execution.check_cancelled();
@@ -162,7 +180,7 @@ DistanceKind heat_distance() {
   return {"heat", true, true,
           [](const MeasuredSurface& surface, const Execution& execution) -> std::shared_ptr<const Distance> {
             return std::make_shared<HeatMethod>(surface.mesh, surface.operators, execution, 1,
-                                                surface.to_the_letter);
+                                                surface.to_the_letter, surface.bridges);
           }};
 }
 

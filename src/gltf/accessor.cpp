@@ -13,8 +13,6 @@
 namespace focal {
 namespace {
 
-using nlohmann::json;
-
 static_assert(std::endian::native == std::endian::little, "glTF data is little-endian and read as it stands");
 
 // Where entries lie: entry i begins at data[i * stride].
@@ -70,24 +68,39 @@ RowMatrix entries(const Source& source, const Element& element, int64_t count) {
   return rows;
 }
 
-// The data `owner` (an accessor, or an end of a sparse one) points at.
-Source source_of(const json& root, GltfBuffers& buffers, const json& owner, int64_t size,
-                 bool may_be_strided) {
-  const int64_t view = checked_integer(owner, "bufferView"), offset = checked_integer(owner, "byteOffset");
-  const json& entry = list(root, "bufferViews")[static_cast<size_t>(view)];
-  const int64_t stride = may_be_strided ? checked_integer(entry, "byteStride", size) : size;
-  return {buffers.view(view).subspan(static_cast<size_t>(offset)), stride};
+Element element_of(const tiny::Accessor& accessor) {
+  Element element;
+  element.type = static_cast<ComponentType>(accessor.componentType);
+  element.normalized = accessor.normalized;
+  element.components = tiny::GetNumComponentsInType(static_cast<uint32_t>(accessor.type));
+  if (accessor.type >= TINYGLTF_TYPE_MAT2 && accessor.type <= TINYGLTF_TYPE_MAT4)
+    element.columns = accessor.type - TINYGLTF_TYPE_MAT2 + 2;
+  element.count = static_cast<int64_t>(accessor.count);
+  return element;
 }
 
-void put_sparse(const json& root, GltfBuffers& buffers, const json& sparse, const Place& place,
+int64_t stride_of(const tiny::BufferView& view, int64_t packed) {
+  if (const tiny::Value* odd = extension(view.extensions, "focal_stride")) return odd->GetNumberAsInt();
+  return view.byteStride > 0 ? static_cast<int64_t>(view.byteStride) : packed;
+}
+
+// The values of a sparse accessor, or what says where they go.
+Source packed_source(GltfBuffers& buffers, int64_t view, int64_t offset, const Element& element) {
+  return {buffers.view(view).subspan(static_cast<size_t>(offset)), element.size()};
+}
+
+void put_sparse(const tiny::Accessor& accessor, GltfBuffers& buffers, const Place& place,
                 const Element& element, RowMatrix& rows) {
-  const int64_t count = checked_integer(sparse, "count");
+  const auto& sparse = accessor.sparse;
   Element index;
-  index.type = static_cast<ComponentType>(checked_integer(sparse["indices"], "componentType"));
-  const auto places = entries(source_of(root, buffers, sparse["indices"], index.size(), false), index, count);
+  index.type = static_cast<ComponentType>(sparse.indices.componentType);
+  const auto places =
+      entries(packed_source(buffers, sparse.indices.bufferView, sparse.indices.byteOffset, index), index,
+              sparse.count);
   const auto values =
-      entries(source_of(root, buffers, sparse["values"], element.size(), false), element, count);
-  for (Eigen::Index i = 0; i < count; ++i) {
+      entries(packed_source(buffers, sparse.values.bufferView, sparse.values.byteOffset, element), element,
+              sparse.count);
+  for (Eigen::Index i = 0; i < sparse.count; ++i) {
     if (places(i) >= static_cast<double>(rows.rows()))
       fail_field(place, "sparse", "replaces an entry that is not there");
     rows.row(static_cast<Eigen::Index>(places(i))) = values.row(i);
@@ -96,17 +109,16 @@ void put_sparse(const json& root, GltfBuffers& buffers, const json& sparse, cons
 
 }  // namespace
 
-RowMatrix read_accessor(const json& root, GltfBuffers& buffers, int64_t index) {
-  const Place place{"accessors", index};
-  const json& accessor = list(root, "accessors")[static_cast<size_t>(index)];
-  const Element element = element_of(accessor, place);
-  RowMatrix rows;
-  if (member(accessor, "bufferView"))
-    rows = entries(source_of(root, buffers, accessor, element.size(), true), element, element.count);
-  else
-    rows = RowMatrix::Zero(element.count, element.components);
-  if (const json* sparse = member(accessor, "sparse"))
-    put_sparse(root, buffers, *sparse, place, element, rows);
+RowMatrix read_accessor(const GltfView& view, GltfBuffers& buffers, int64_t index) {
+  const tiny::Accessor& accessor = view.model.accessors[static_cast<size_t>(index)];
+  const Element element = element_of(accessor);
+  RowMatrix rows = RowMatrix::Zero(element.count, element.components);
+  if (has_view(view.model, accessor) && element.count > 0) {
+    const auto bytes = buffers.view(accessor.bufferView).subspan(accessor.byteOffset);
+    const auto& from = view.model.bufferViews[static_cast<size_t>(accessor.bufferView)];
+    rows = entries({bytes, stride_of(from, element.size())}, element, element.count);
+  }
+  if (accessor.sparse.isSparse) put_sparse(accessor, buffers, {"accessors", index}, element, rows);
   return rows;
 }
 

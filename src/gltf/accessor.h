@@ -1,7 +1,6 @@
 // The numbers an accessor stands for.
 #pragma once
 #include <cstdint>
-#include <nlohmann/json.hpp>
 
 #include "base/matrix.h"
 #include "gltf/buffers.h"
@@ -10,7 +9,7 @@
 namespace focal {
 
 // One row an entry; sparse entries put in, normalised integers scaled to [0, 1] or [-1, 1]. Doubles hold every
-// component type exactly. Matrices are column-major within the row. `root` has passed parse_gltf.
-RowMatrix read_accessor(const nlohmann::json& root, GltfBuffers& buffers, int64_t index);
+// component type exactly. Matrices are column-major within the row.
+RowMatrix read_accessor(const GltfView& view, GltfBuffers& buffers, int64_t index);
 
 }  // namespace focal

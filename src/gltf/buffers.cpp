@@ -15,14 +15,6 @@
 namespace focal {
 namespace {
 
-using nlohmann::json;
-
-// parse_gltf has seen to it that the extent lies in the buffer's length, and buffer() that so many bytes are there.
-std::span<const std::byte> extent(std::span<const std::byte> bytes, const json& owner) {
-  return bytes.subspan(static_cast<size_t>(checked_integer(owner, "byteOffset")),
-                       static_cast<size_t>(checked_integer(owner, "byteLength")));
-}
-
 // The preconditions of each decoder are asserts in the library, so they are checked here.
 bool decode_mode(const std::string& mode, std::vector<std::byte>& out, size_t count, size_t stride,
                  std::span<const std::byte> in) {
@@ -53,30 +45,39 @@ bool apply_filter(const std::string& filter, std::vector<std::byte>& bytes, size
 
 }  // namespace
 
-GltfBuffers::GltfBuffers(const json& root, const GltfContainer& container, const GltfLimits& limits,
-                         std::optional<std::filesystem::path> folder)
-    : root_(root), container_(container), limits_(limits), folder_(std::move(folder)) {}
+std::optional<std::filesystem::path> path_beside(const std::string& uri) {
+  std::string path = percent_decoded(uri);
+  std::replace(path.begin(), path.end(), '\\', '/');
+  const bool is_name =
+      !path.empty() && path.find('\0') == std::string::npos && path.find(':') == std::string::npos;
+  return is_name ? std::optional<std::filesystem::path>(path) : std::nullopt;
+}
 
 std::span<const std::byte> GltfBuffers::view(int64_t index) {
   const Place place{"bufferViews", index};
-  const json& view = list(root_, "bufferViews")[static_cast<size_t>(index)];
-  const json* compressed = extension(view, "EXT_meshopt_compression");
-  if (!compressed) return extent(buffer(view["buffer"].get<int64_t>()), view);
+  const tiny::BufferView& view = view_.model.bufferViews[static_cast<size_t>(index)];
+  const tiny::Value* compressed = extension(view.extensions, "EXT_meshopt_compression");
+  if (!compressed)
+    return extent(view.buffer, static_cast<int64_t>(view.byteOffset), static_cast<int64_t>(view.byteLength));
   auto found = decoded_views_.find(index);
   if (found == decoded_views_.end()) found = decoded_views_.emplace(index, decode(*compressed, place)).first;
   return found->second;
 }
 
+// parse_gltf has seen to it that the extent lies in the buffer's length, and buffer() that so many bytes are there.
+std::span<const std::byte> GltfBuffers::extent(int64_t index, int64_t offset, int64_t length) {
+  return buffer(index).subspan(static_cast<size_t>(offset), static_cast<size_t>(length));
+}
+
 std::span<const std::byte> GltfBuffers::buffer(int64_t index) {
   const Place place{"buffers", index};
-  const json& buffer = list(root_, "buffers")[static_cast<size_t>(index)];
-  const int64_t length = checked_integer(buffer, "byteLength");
+  const BufferSource& source = view_.buffers[static_cast<size_t>(index)];
   std::span<const std::byte> bytes;
-  if (const std::string* uri = text(buffer, "uri", place)) {
+  if (source.uri) {
     auto found = loaded_buffers_.find(index);
     if (found == loaded_buffers_.end()) {
-      if (is_data_uri(*uri)) charge(static_cast<int64_t>(uri->size() / 4 * 3));
-      found = loaded_buffers_.emplace(index, load(*uri, place)).first;
+      if (is_data_uri(*source.uri)) charge(static_cast<int64_t>(source.uri->size() / 4 * 3));
+      found = loaded_buffers_.emplace(index, load(*source.uri, place)).first;
     }
     bytes = found->second;
   } else if (index == 0 && container_.has_bin) {
@@ -84,9 +85,10 @@ std::span<const std::byte> GltfBuffers::buffer(int64_t index) {
   } else {
     fail_field(place, "uri", "is missing and there is no BIN chunk for it");
   }
-  if (static_cast<int64_t>(bytes.size()) < length)
-    fail_field(place, "byteLength",
-               "is " + std::to_string(length) + " where " + std::to_string(bytes.size()) + " bytes are");
+  if (static_cast<int64_t>(bytes.size()) < source.length)
+    fail_field(
+        place, "byteLength",
+        "is " + std::to_string(source.length) + " where " + std::to_string(bytes.size()) + " bytes are");
   return bytes;
 }
 
@@ -96,30 +98,29 @@ std::vector<std::byte> GltfBuffers::load(const std::string& uri, const Place& pl
     if (!bytes) fail_field(place, "uri", "is not a well-formed base64 data URI");
     return std::move(*bytes);
   }
-  const auto path = percent_decoded(uri);
-  if (!path || path->empty() || path->find('\0') != std::string::npos || path->find(':') != std::string::npos)
-    fail_field(place, "uri", "is neither data nor the name of a file beside this one");
+  const auto path = path_beside(uri);
+  if (!path) fail_field(place, "uri", "is neither data nor the name of a file beside this one");
   if (!folder_)
-    throw Error(Status::unsupported, "the buffer lies in another file, '" + printable(*path) + "'",
+    throw Error(Status::unsupported, "the buffer lies in another file, '" + printable(path->string()) + "'",
                 "allow external files, or save the model as one .glb");
   return read_file_inside(*folder_, *path, limits_.file_bytes);
 }
 
-std::vector<std::byte> GltfBuffers::decode(const json& compressed, const Place& place) {
-  const auto source = extent(buffer(compressed["buffer"].get<int64_t>()), compressed);
-  const int64_t count = checked_integer(compressed, "count");
-  const int64_t stride = checked_integer(compressed, "byteStride");
+std::vector<std::byte> GltfBuffers::decode(const tiny::Value& compressed, const Place& place) {
+  const auto number = [&](const char* key) { return int64_t{compressed.Get(key).GetNumberAsInt()}; };
+  const auto word = [&](const char* key) {
+    return compressed.Has(key) ? compressed.Get(key).Get<std::string>() : std::string("NONE");
+  };
+  const auto source = extent(number("buffer"), number("byteOffset"), number("byteLength"));
+  const int64_t count = number("count"), stride = number("byteStride");
   // The codecs cannot shrink data further than this, so a tiny file cannot ask for a huge block.
   constexpr int64_t kBestRatio = 1024;
   if (count * stride > kBestRatio * static_cast<int64_t>(source.size()))
     fail_field(place, "extensions", "EXT_meshopt_compression announces more data than it can hold");
   charge(count * stride);
   std::vector<std::byte> bytes(static_cast<size_t>(count * stride));
-  const std::string* mode = text(compressed, "mode", place);
-  const std::string* filter = text(compressed, "filter", place);
-  if (!mode || !decode_mode(*mode, bytes, static_cast<size_t>(count), static_cast<size_t>(stride), source) ||
-      !apply_filter(filter ? *filter : "NONE", bytes, static_cast<size_t>(count),
-                    static_cast<size_t>(stride)))
+  if (!decode_mode(word("mode"), bytes, static_cast<size_t>(count), static_cast<size_t>(stride), source) ||
+      !apply_filter(word("filter"), bytes, static_cast<size_t>(count), static_cast<size_t>(stride)))
     fail_field(place, "extensions", "EXT_meshopt_compression data cannot be decoded");
   return bytes;
 }

@@ -3,21 +3,26 @@
 #include <cstddef>
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "gltf/container.h"
 #include "gltf/fields.h"
-#include "gltf/preflight.h"
+#include "gltf/view.h"
 
 namespace focal {
 
+// The place beside a document that a URI in it names; nothing when it names none (an address, an absolute path). Backslashes count as
+// slashes, and a % that begins no escape as itself, as many exporters write them.
+std::optional<std::filesystem::path> path_beside(const std::string& uri);
+
 class GltfBuffers {
  public:
-  // `root` has passed parse_gltf. Buffers in other files are read from `folder`, or refused without one.
-  GltfBuffers(const nlohmann::json& root, const GltfContainer& container, const GltfLimits& limits,
-              std::optional<std::filesystem::path> folder);
+  // Buffers in other files are read from `folder`, or refused without one. What is passed must live as long as this.
+  GltfBuffers(const GltfView& view, const GltfContainer& container, const GltfLimits& limits,
+              const std::optional<std::filesystem::path>& folder)
+      : view_(view), container_(container), limits_(limits), folder_(folder) {}
 
   // The view's bytes, EXT_meshopt_compression decoded; valid as long as this object.
   // Throws invalid_file, unsupported, file_not_found, io.
@@ -26,13 +31,14 @@ class GltfBuffers {
  private:
   std::span<const std::byte> buffer(int64_t index);
   std::vector<std::byte> load(const std::string& uri, const Place& place) const;
-  std::vector<std::byte> decode(const nlohmann::json& compressed, const Place& place);
+  std::span<const std::byte> extent(int64_t buffer, int64_t offset, int64_t length);
+  std::vector<std::byte> decode(const tiny::Value& compressed, const Place& place);
   void charge(int64_t bytes);  // against limits_.decoded_bytes
 
-  const nlohmann::json& root_;
+  const GltfView& view_;
   const GltfContainer& container_;
   const GltfLimits& limits_;
-  std::optional<std::filesystem::path> folder_;
+  const std::optional<std::filesystem::path>& folder_;
   int64_t decoded_bytes_ = 0;
   std::map<int64_t, std::vector<std::byte>> loaded_buffers_, decoded_views_;
 };

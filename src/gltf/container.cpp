@@ -1,15 +1,17 @@
 // The GLB container: a header of 12 bytes, then chunks of length, type and data (glTF 2.0, section 4).
+#include "gltf/container.h"
+
 #include <algorithm>
 #include <cstdint>
 #include <string>
 
 #include "base/error.h"
-#include "gltf/preflight.h"
+#include "gltf/foreign_file.h"
 
 namespace focal {
 namespace {
 
-constexpr uint32_t kMagic = 0x46546c67, kJson = 0x4e4f534a, kBin = 0x004e4942;
+constexpr uint32_t kMagic = 0x46546c67, kVersion = 2, kJson = 0x4e4f534a, kBin = 0x004e4942;
 constexpr size_t kHeaderSize = 12, kChunkHeaderSize = 8;
 
 uint32_t little_endian_at(std::span<const std::byte> bytes, size_t at) {
@@ -65,20 +67,76 @@ void open_binary(std::span<const std::byte> bytes, GltfContainer& container) {
   }
 }
 
+void put_u32(std::vector<std::byte>& bytes, uint64_t value) {
+  if (value >> 32)
+    throw Error(Status::unsupported, "a .glb cannot hold more than 4 GiB", "decimate the model");
+  for (int shift = 0; shift < 32; shift += 8) bytes.push_back(static_cast<std::byte>(value >> shift & 0xff));
+}
+
+uint64_t padded(uint64_t size) { return (size + 3) / 4 * 4; }
+
+void put_chunk(std::vector<std::byte>& bytes, uint32_t type, std::span<const std::byte> data, char padding) {
+  put_u32(bytes, padded(data.size()));
+  put_u32(bytes, type);
+  bytes.insert(bytes.end(), data.begin(), data.end());
+  bytes.insert(bytes.end(), padded(data.size()) - data.size(), static_cast<std::byte>(padding));
+}
+
 }  // namespace
 
 GltfContainer open_container(std::span<const std::byte> bytes, const GltfLimits& limits) {
   if (bytes.empty()) throw Error(Status::invalid_file, "the file is empty", "pass a .glb or .gltf file");
   GltfContainer container;
   container.binary = bytes.size() >= 4 && little_endian_at(bytes, 0) == kMagic;
-  if (container.binary)
+  if (container.binary) {
     open_binary(bytes, container);
-  else
+  } else {
+    refuse_foreign_file(bytes);
     container.json = bytes;
+  }
   if (static_cast<int64_t>(container.json.size()) > limits.json_bytes)
     throw Error(Status::unsupported, "glTF with " + std::to_string(container.json.size()) + " bytes of JSON",
                 "save it as .glb, which keeps the geometry out of the JSON, or raise the limit");
   return container;
+}
+
+std::vector<std::byte> glb_bytes(std::string_view json, std::span<const std::byte> chunks) {
+  constexpr uint64_t kHeaders = kHeaderSize + kChunkHeaderSize;
+  std::vector<std::byte> bytes;
+  const uint64_t size = kHeaders + padded(json.size()) + chunks.size();
+  put_u32(bytes, kMagic);
+  put_u32(bytes, kVersion);
+  put_u32(bytes, size);
+  bytes.reserve(size);
+  put_chunk(bytes, kJson, std::as_bytes(std::span(json)), ' ');
+  bytes.insert(bytes.end(), chunks.begin(), chunks.end());
+  return bytes;
+}
+
+std::vector<std::byte> bin_chunk(std::span<const std::byte> data) {
+  std::vector<std::byte> bytes;
+  bytes.reserve(8 + padded(data.size()));
+  put_chunk(bytes, kBin, data, '\0');
+  return bytes;
+}
+
+std::vector<std::byte> with_content(const GltfContainer& container, std::string_view json,
+                                    std::span<const std::byte> bin) {
+  if (!container.binary) {
+    const auto bytes = std::as_bytes(std::span(json));
+    return {bytes.begin(), bytes.end()};
+  }
+  if (bin.empty()) return glb_bytes(json, container.rest);
+  std::vector<std::byte> chunks = bin_chunk(bin);
+  size_t first = 0, behind = 0;  // where the old BIN chunk lies
+  if (container.has_bin) {
+    first = static_cast<size_t>(container.bin.data() - container.rest.data()) - kChunkHeaderSize;
+    behind = first + kChunkHeaderSize + container.bin.size();
+  }
+  const auto& rest = container.rest;
+  chunks.insert(chunks.begin(), rest.begin(), rest.begin() + static_cast<std::ptrdiff_t>(first));
+  chunks.insert(chunks.end(), rest.begin() + static_cast<std::ptrdiff_t>(behind), rest.end());
+  return glb_bytes(json, chunks);
 }
 
 }  // namespace focal

@@ -51,7 +51,7 @@ Element element_of(const nlohmann::json& accessor, const Place& place) {
   element.type = static_cast<ComponentType>(integer(accessor, "componentType", place, 5120, 5126));
   if (component_size(element.type) == 0)
     fail_field(place, "componentType", "is not a component type of glTF");
-  element.count = integer(accessor, "count", place, 1, kMostBytes);
+  element.count = integer(accessor, "count", place, 0, kMostBytes);
   const auto* normalized = member(accessor, "normalized");
   if (normalized && !normalized->is_boolean()) fail_field(place, "normalized", "is not a boolean");
   element.normalized = normalized && normalized->get<bool>();

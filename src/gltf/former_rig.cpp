@@ -77,7 +77,10 @@ void FormerRigs::release_animations() {
   };
   auto& list = animations->get_ref<Json::array_t&>();
   for (Json& animation : list)
-    if (moves_former_alone(animation)) put(animation, "null");
+    if (moves_former_alone(animation)) {
+      OrderedJsonDocument old;
+      animation.swap(old.root());
+    }
   list.erase(std::remove_if(list.begin(), list.end(), [](const Json& one) { return one.is_null(); }),
              list.end());
   if (list.empty()) remove(root_, "animations");  // glTF allows no empty list

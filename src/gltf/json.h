@@ -21,6 +21,7 @@ struct JsonLimits {
 template <class Json>
 class BasicJsonDocument {
  public:
+  BasicJsonDocument() = default;  // null
   // Throws invalid_file (syntax, UTF-8, a key given twice), unsupported (a limit exceeded).
   BasicJsonDocument(std::span<const std::byte> text, const JsonLimits& limits);
   BasicJsonDocument(BasicJsonDocument&& other) noexcept : root_(std::move(other.root_)) {}

@@ -7,8 +7,8 @@
 
 #include "base/error.h"
 #include "gltf/document_edit.h"
-#include "gltf/glb.h"
-#include "gltf/writer.h"
+#include "gltf/opened.h"
+#include "gltf/text.h"
 
 namespace focal {
 namespace {
@@ -16,18 +16,18 @@ namespace {
 using Json = OrderedJson;
 
 constexpr const char* kGroupName = "focal_landmarks";
-constexpr const char* kVersion = "1";
+constexpr int kVersion = 1;
 
-std::string describe(const GltfLandmark& landmark) {
-  return R"("status":)" + json_string(landmark.status) + R"(,"confidence":)" +
-         json_number(landmark.confidence);
+void describe(const GltfLandmark& landmark, Json& to) {
+  at(to, "status") = landmark.status;
+  at(to, "confidence") = short_number(landmark.confidence);
 }
 
 void check(const GltfLandmark& landmark) {
   const bool finite = landmark.position.cast<float>().allFinite() && landmark.point.barycentric.allFinite() &&
                       std::isfinite(landmark.confidence);
   if (!finite)
-    throw Error(Status::invalid_landmark, "landmark " + json_string(landmark.name) + " is not finite",
+    throw Error(Status::invalid_landmark, "landmark '" + printable(landmark.name) + "' is not finite",
                 "leave it out or give it the status absent");
 }
 
@@ -42,6 +42,7 @@ class LandmarkInserter {
  private:
   void release_former_nodes(Json& scene_nodes);
   const GltfPrimitive& primitive_of(const GltfLandmark& landmark) const;
+  void describe_place(const GltfLandmark& landmark, const GltfPrimitive& primitive, Json& to) const;
 
   Json& root_;
   std::span<const GltfPrimitive> primitives_;
@@ -80,18 +81,20 @@ void LandmarkInserter::add_nodes(std::span<const GltfLandmark> landmarks) {
   release_former_nodes(scene_nodes);
   Json& nodes = root_["nodes"];
   const size_t group = pool_.take();
-  std::string children;
+  std::vector<size_t> children;
   for (const GltfLandmark& landmark : landmarks) {
     if (landmark.status == "absent") continue;
-    const size_t node = pool_.take();
-    put(nodes[node], R"({"name":)" + json_string(landmark.name) + R"(,"translation":)" +
-                         json_array(landmark.position) + R"(,"extras":{"focal":{)" + describe(landmark) +
-                         "}}}");
-    children += (children.empty() ? "" : ",") + std::to_string(node);
+    children.push_back(pool_.take());
+    Json& node = nodes[children.back()];
+    at(node, "name") = landmark.name;
+    put_vector(node, "translation", landmark.position);
+    describe(landmark, new_object(new_object(at(node, "extras"))["focal"]));
   }
-  put(nodes[group], std::string(R"({"name":")") + kGroupName + R"(",)" +
-                        (children.empty() ? "" : R"("children":[)" + children + "],") +
-                        R"("extras":{"focal":{"version":)" + kVersion + "}}}");
+  Json& node = nodes[group];
+  at(node, "name") = kGroupName;
+  if (!children.empty())
+    for (Json& list = new_list(at(node, "children")); const size_t child : children) list.push_back(child);
+  new_object(new_object(at(node, "extras"))["focal"])["version"] = kVersion;
   scene_nodes.push_back(group);
 }
 
@@ -103,29 +106,32 @@ const GltfPrimitive& LandmarkInserter::primitive_of(const GltfLandmark& landmark
   const auto found = std::find_if(primitives_.begin(), primitives_.end(), holds);
   if (found == primitives_.end())
     throw Error(Status::invalid_landmark,
-                "landmark " + json_string(landmark.name) + " lies on triangle " +
+                "landmark '" + printable(landmark.name) + "' lies on triangle " +
                     std::to_string(landmark.point.triangle) + ", which the file does not have",
                 "pass the primitives read from this file");
   return *found;
 }
 
+void LandmarkInserter::describe_place(const GltfLandmark& landmark, const GltfPrimitive& primitive,
+                                      Json& to) const {
+  Vector3 weights = landmark.point.barycentric;
+  if (primitive.mirrored) std::swap(weights(1), weights(2));
+  const auto is_other = [&](const GltfPrimitive& one) {
+    return one.mesh == primitive.mesh && one.node != primitive.node;
+  };
+  at(to, "primitive") = primitive.primitive;
+  at(to, "triangle") = landmark.point.triangle - primitive.first_triangle;
+  put_vector(to, "barycentric", weights);
+  // Where several nodes show the mesh, the one that is meant.
+  if (std::any_of(primitives_.begin(), primitives_.end(), is_other)) at(to, "node") = primitive.node;
+}
+
 void LandmarkInserter::add_mesh_extras(std::span<const GltfLandmark> landmarks) {
-  std::map<int32_t, std::string> entries;  // per mesh
+  std::map<int32_t, std::vector<const GltfLandmark*>> entries;  // per mesh
   for (const GltfLandmark& landmark : landmarks) {
     const bool placed = landmark.point.triangle >= 0;
     if (!placed && primitives_.empty()) continue;
-    const GltfPrimitive& primitive = placed ? primitive_of(landmark) : primitives_.front();
-    std::string& text = entries[primitive.mesh];
-    text +=
-        (text.empty() ? "" : ",") + (R"({"name":)" + json_string(landmark.name)) + "," + describe(landmark);
-    if (placed) {
-      Vector3 weights = landmark.point.barycentric;
-      if (primitive.mirrored) std::swap(weights(1), weights(2));
-      text += R"(,"primitive":)" + std::to_string(primitive.primitive) + R"(,"triangle":)" +
-              std::to_string(landmark.point.triangle - primitive.first_triangle) + R"(,"barycentric":)" +
-              json_array(weights);
-    }
-    text += "}";
+    entries[(placed ? primitive_of(landmark) : primitives_.front()).mesh].push_back(&landmark);
   }
   Json* meshes = find(root_, "meshes");
   for (size_t mesh = 0; meshes && mesh < meshes->size(); ++mesh) {
@@ -135,24 +141,28 @@ void LandmarkInserter::add_mesh_extras(std::span<const GltfLandmark> landmarks) 
     Json& extras = member_or_new(element, "extras", Json::value_t::object);
     if (!extras.is_object())
       continue;  // extras may be anything; another's number or text is not ours to replace
-    put(extras["focal"], std::string(R"({"version":)") + kVersion + R"(,"landmarks":[)" +
-                             (entry == entries.end() ? "" : entry->second) + "]}");
+    Json& own = new_object(at(extras, "focal"));
+    own["version"] = kVersion;
+    Json& list = new_list(own["landmarks"]);
+    for (const GltfLandmark* landmark :
+         entry == entries.end() ? std::vector<const GltfLandmark*>() : entry->second) {
+      list.emplace_back(nullptr);
+      Json& to = new_object(list.back());
+      at(to, "name") = landmark->name;
+      describe(*landmark, to);
+      if (landmark->point.triangle >= 0) describe_place(*landmark, primitive_of(*landmark), to);
+    }
   }
 }
 
 }  // namespace
 
-std::vector<std::byte> add_landmarks(std::span<const std::byte> source,
-                                     std::span<const GltfPrimitive> primitives,
-                                     std::span<const GltfLandmark> landmarks, const GltfLimits& limits) {
+void GltfDocument::add_landmarks(std::span<const GltfPrimitive> primitives,
+                                 std::span<const GltfLandmark> landmarks) {
   for (const GltfLandmark& landmark : landmarks) check(landmark);
-  const GltfContainer container = open_container(source, limits);
-  parse_gltf(container, limits);  // every reference followed below is checked here
-  OrderedJsonDocument document(container.json, {.depth = limits.json_depth, .values = limits.json_values});
-  LandmarkInserter inserter(document.root(), primitives);
+  LandmarkInserter inserter(edited().document.root(), primitives);
   inserter.add_nodes(landmarks);
   inserter.add_mesh_extras(landmarks);
-  return edited_file(container, document.root());
 }
 
 }  // namespace focal

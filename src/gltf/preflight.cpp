@@ -113,8 +113,9 @@ void check_view(const json& root, const json& view, const Place& place) {
   const json* compressed = extension(view, "EXT_meshopt_compression");
   if (!compressed) return;
   check_extent(root, *compressed, place);
+  for (const char* key : {"byteOffset", "byteLength"}) integer(*compressed, key, place, 0, INT32_MAX, 0);
   const int64_t stride = integer(*compressed, "byteStride", place, 1, 256);
-  const int64_t count = integer(*compressed, "count", place, 1, kMostBytes);
+  const int64_t count = integer(*compressed, "count", place, 1, INT32_MAX);
   if (stride * count != checked_integer(view, "byteLength"))
     fail_field(place, "extensions", "EXT_meshopt_compression decodes to another length than the view has");
   text(*compressed, "mode", place);
@@ -136,6 +137,8 @@ void check_entries(const json& root, const json& owner, const Place& place, cons
 
 void check_sparse(const json& root, const json& sparse, const Place& place, const Element& element) {
   const int64_t count = integer(sparse, "count", place, 1, element.count);
+  for (const char* end : {"indices", "values"})
+    if (const json* part = object(sparse, end, place)) integer(*part, "byteOffset", place, 0, INT32_MAX, 0);
   const json* indices = object(sparse, "indices", place);
   const json* values = object(sparse, "values", place);
   if (!indices || !values) fail_field(place, "sparse", "lacks indices or values");
@@ -146,8 +149,10 @@ void check_sparse(const json& root, const json& sparse, const Place& place, cons
   check_entries(root, *values, place, element, count, false);
 }
 
-void check_accessor(const json& root, const json& accessor, const Place& place) {
+void check_accessor(const json& root, const json& accessor, const Place& place, bool lenient) {
   const Element element = element_of(accessor, place);
+  if (element.count == 0 && !lenient)
+    fail_field(place, "count", "is 0: the accessor is empty; --lenient (lenient) leaves such parts out");
   if (member(accessor, "bufferView"))
     check_entries(root, accessor, place, element, element.count, true);
   else if (member(accessor, "byteOffset"))
@@ -190,9 +195,19 @@ void check_primitive(const json& root, const json& primitive, const Place& place
   }
 }
 
-void check_mesh(const json& root, const json& mesh, const Place& place, const GltfLimits& limits) {
+void check_weights(const json& owner, const Place& place) {
+  const json* weights = array(owner, "weights", place);
+  if (weights && !std::all_of(weights->begin(), weights->end(), [](const json& w) { return w.is_number(); }))
+    fail_field(place, "weights", "holds something else than numbers");
+}
+
+void check_mesh(const json& root, const json& mesh, const Place& place, const GltfLimits& limits,
+                bool lenient) {
+  check_weights(mesh, place);
   const json* primitives = array(mesh, "primitives", place);
-  if (!primitives || primitives->empty()) fail_field(place, "primitives", "is missing or empty");
+  if (!primitives && lenient) return;
+  if (!primitives || (primitives->empty() && !lenient))
+    fail_field(place, "primitives", "is missing or empty; --lenient (lenient) leaves such a mesh out");
   check_number(static_cast<int64_t>(primitives->size()), "primitives of a mesh", limits);
   for (const json& primitive : *primitives) {
     if (!primitive.is_object()) fail_field(place, "primitives", "holds something else than objects");
@@ -214,6 +229,7 @@ void check_visibility(const json& node, const Place& place) {
 }
 
 void check_node(const json& root, const json& node, const Place& place) {
+  check_weights(node, place);
   check_visibility(node, place);
   reference(node, "mesh", place, count_of(root, "meshes"));
   reference(node, "skin", place, count_of(root, "skins"));
@@ -280,7 +296,7 @@ void check_forest(const json& root) {
 
 }  // namespace
 
-JsonDocument parse_gltf(const GltfContainer& container, const GltfLimits& limits) {
+JsonDocument parse_gltf(const GltfContainer& container, const GltfLimits& limits, bool lenient) {
   JsonDocument document(container.json, {.depth = limits.json_depth, .values = limits.json_values});
   const json& root = document.root();
   if (!root.is_object()) throw Error(Status::invalid_file, "JSON, but not glTF", "pass a .glb or .gltf file");
@@ -289,8 +305,10 @@ JsonDocument parse_gltf(const GltfContainer& container, const GltfLimits& limits
   check_lists(root, limits);
   for_each(root, "buffers", check_buffer);
   for_each(root, "bufferViews", [&](const json& e, const Place& place) { check_view(root, e, place); });
-  for_each(root, "accessors", [&](const json& e, const Place& place) { check_accessor(root, e, place); });
-  for_each(root, "meshes", [&](const json& e, const Place& place) { check_mesh(root, e, place, limits); });
+  for_each(root, "accessors",
+           [&](const json& e, const Place& place) { check_accessor(root, e, place, lenient); });
+  for_each(root, "meshes",
+           [&](const json& e, const Place& place) { check_mesh(root, e, place, limits, lenient); });
   check_skins(root, limits);
   for_each(root, "nodes", [&](const json& e, const Place& place) { check_node(root, e, place); });
   for_each(root, "scenes",

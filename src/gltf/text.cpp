@@ -47,19 +47,15 @@ std::string printable(std::string_view text) {
   return text.size() > kLongest ? result + "..." : result;
 }
 
-std::optional<std::string> percent_decoded(std::string_view uri) {
+std::string percent_decoded(std::string_view uri) {
   std::string result;
   for (size_t i = 0; i < uri.size(); ++i) {
-    if (uri[i] != '%') {
-      result += uri[i];
-      continue;
-    }
-    if (uri.size() - i < 3) return std::nullopt;
     uint8_t value = 0;
     const char* const digits = uri.data() + i + 1;
-    if (std::from_chars(digits, digits + 2, value, 16).ptr != digits + 2) return std::nullopt;
-    result += static_cast<char>(value);
-    i += 2;
+    const bool is_escape = uri[i] == '%' && uri.size() - i > 2 &&
+                           std::from_chars(digits, digits + 2, value, 16).ptr == digits + 2;
+    result += is_escape ? static_cast<char>(value) : uri[i];
+    if (is_escape) i += 2;
   }
   return result;
 }

@@ -12,8 +12,8 @@ namespace focal {
 // Text for a message: printable ASCII, at most 200 characters.
 std::string printable(std::string_view text);
 
-// Percent escapes resolved; nothing when one is malformed.
-std::optional<std::string> percent_decoded(std::string_view uri);
+// Percent escapes resolved; a % that begins none stays.
+std::string percent_decoded(std::string_view uri);
 
 // Bytes of the base64 payload of a "data:...;base64,..." URI; nothing when malformed. RFC 2397, RFC 4648.
 std::optional<std::vector<std::byte>> data_uri_bytes(std::string_view uri);

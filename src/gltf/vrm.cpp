@@ -1,11 +1,9 @@
-#include "gltf/vrm.h"
-
+// VRM 1.0 out: the humanoid map and the meta data of an avatar.
 #include <algorithm>
 
 #include "base/error.h"
 #include "gltf/document_edit.h"
-#include "gltf/glb.h"
-#include "gltf/preflight.h"
+#include "gltf/opened.h"
 
 namespace focal {
 namespace {
@@ -49,35 +47,25 @@ std::vector<size_t> nodes_of(OrderedJson& root, const std::vector<Joint>& joints
               "write the skeleton into it first");
 }
 
-std::string human_bones(std::span<const std::string> roles, const std::vector<size_t>& nodes) {
-  std::string text;
-  for (size_t j = 0; j < roles.size(); ++j)
-    if (!roles[j].empty())
-      text +=
-          (text.empty() ? "" : ",") + json_string(roles[j]) + R"(:{"node":)" + std::to_string(nodes[j]) + "}";
-  return "{" + text + "}";
-}
-
 bool is_filled_text(const OrderedJson& value) {
   const auto* text = value.get_ptr<const std::string*>();
   return text && !text->empty();
 }
 
-// With what VRM requires.
-std::string checked_meta(std::string_view text) {
-  OrderedJsonDocument document(std::as_bytes(std::span(text)), {});
-  OrderedJson& meta = document.root();
+// Fills in what VRM requires.
+void complete_meta(OrderedJson& meta) {
   if (!meta.is_object())
     throw Error(Status::invalid_file, "the meta data is no JSON object",
                 R"(write {"name": "...", "authors": ["..."]})");
-  const OrderedJson *name = find(meta, "name"), *authors = find(meta, "authors");
+  const OrderedJson* name = find(meta, "name");
+  const bool has_name = name && is_filled_text(*name);
+  const OrderedJson* authors = find(meta, "authors");
   const bool has_authors = authors && authors->is_array() && !authors->empty() &&
                            std::all_of(authors->begin(), authors->end(), is_filled_text);
-  if (!name || !is_filled_text(*name) || !has_authors)
+  if (!has_name || !has_authors)
     throw Error(Status::invalid_argument, "VRM's meta data needs a name and a list of authors",
                 R"(write {"name": "...", "authors": ["..."]})");
-  if (!find(meta, "licenseUrl")) meta["licenseUrl"] = license_url;
-  return meta.dump();
+  if (!find(meta, "licenseUrl")) at(meta, "licenseUrl") = license_url;
 }
 
 void declare(OrderedJson& root) {
@@ -89,23 +77,23 @@ void declare(OrderedJson& root) {
 
 }  // namespace
 
-std::vector<std::byte> add_vrm(std::span<const std::byte> source, const std::vector<Joint>& joints,
-                               std::span<const std::string> roles, std::string_view meta,
-                               const GltfLimits& limits) {
-  const GltfContainer container = open_container(source, limits);
-  if (!container.binary)
+void GltfDocument::add_vrm(const std::vector<Joint>& joints, std::span<const std::string> roles,
+                           std::string_view meta) {
+  if (!is_binary())
     throw Error(Status::invalid_argument, "the mesh came as .gltf, and VRM is a .glb", "export it as .glb");
   check_bones(roles);
-  const std::string checked = checked_meta(meta);
-  parse_gltf(container, limits);
-  OrderedJsonDocument document(container.json, {.depth = limits.json_depth, .values = limits.json_values});
-  OrderedJson& root = document.root();
-  const std::string bones = human_bones(roles, nodes_of(root, joints));
+  OrderedJsonDocument given(std::as_bytes(std::span(meta)), {});
+  complete_meta(given.root());
+  OrderedJson& root = edited().document.root();
+  const std::vector<size_t> nodes = nodes_of(root, joints);
   declare(root);
   OrderedJson& extensions = member_or_new(root, "extensions", OrderedJson::value_t::object);
-  put(extensions["VRMC_vrm"],
-      R"({"specVersion":"1.0","meta":)" + checked + R"(,"humanoid":{"humanBones":)" + bones + "}}");
-  return edited_file(container, root);
+  OrderedJson& vrm = new_object(at(extensions, "VRMC_vrm"));
+  at(vrm, "specVersion") = "1.0";
+  at(vrm, "meta").swap(given.root());
+  OrderedJson& bones = new_object(at(new_object(at(vrm, "humanoid")), "humanBones"));
+  for (size_t j = 0; j < roles.size(); ++j)
+    if (!roles[j].empty()) at(new_object(at(bones, roles[j])), "node") = nodes[j];
 }
 
 }  // namespace focal

@@ -1,22 +1,17 @@
 // A small GLB from scratch.
-#include "gltf/writer.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 
 #include "base/error.h"
-#include "gltf/glb.h"
+#include "gltf/accessor_writer.h"
+#include "gltf/container.h"
+#include "gltf/document.h"
 
 namespace focal {
 namespace {
 
-template <class T>
-void append(std::vector<std::byte>& bytes, const T* values, size_t count) {
-  const auto data = std::as_bytes(std::span(values, count));
-  bytes.insert(bytes.end(), data.begin(), data.end());
-}
+using Json = OrderedJson;
 
 // A vertex of no triangle gets any unit vector.
 RowMatrixf smooth_normals(const TriangleMesh& mesh) {
@@ -55,22 +50,19 @@ void check(const TriangleMesh& mesh, const RowMatrixf& positions, const RowMatri
                 "pass n x 3 colours");
 }
 
-// Collects attributes, each in a view and an accessor of its own.
-struct Attributes {
-  std::vector<std::byte> data;
-  std::string views, accessors;
+template <class T>
+std::vector<T> values_of(const auto& matrix) {
+  return std::vector<T>(matrix.data(), matrix.data() + matrix.size());
+}
 
-  template <class T>
-  void add(const T* values, size_t count, const char* target, const std::string& accessor) {
-    const char* const comma = views.empty() ? "" : ",";
-    const std::string index = std::to_string(view_count++);
-    views += std::string(comma) + R"({"buffer":0,"byteOffset":)" + std::to_string(data.size()) +
-             R"(,"byteLength":)" + std::to_string(count * sizeof(T)) + R"(,"target":)" + target + "}";
-    accessors += std::string(comma) + R"({"bufferView":)" + index + "," + accessor + "}";
-    append(data, values, count);
-  }
-  int view_count = 0;
-};
+Json& appended(Json& root, const char* list) { return root[list][append_element(root, list)]; }
+
+void put_material(Json& root) {
+  Json& material = appended(root, "materials");
+  Json& surface = new_object(material["pbrMetallicRoughness"]);
+  surface["metallicFactor"] = 0, surface["roughnessFactor"] = 0.8;
+  material["doubleSided"] = true;
+}
 
 }  // namespace
 
@@ -78,36 +70,37 @@ std::vector<std::byte> write_glb(const TriangleMesh& mesh, const RowMatrixf& col
                                  const std::string& name) {
   const RowMatrixf positions = mesh.positions.cast<float>();
   check(mesh, positions, colours);
-  const RowMatrixf normals = smooth_normals(mesh);
   const Vector3 low = positions.colwise().minCoeff().cast<double>();
   const Vector3 high = positions.colwise().maxCoeff().cast<double>();
-  const std::string vertices = R"(,"count":)" + std::to_string(mesh.vertex_count());
-  constexpr const char *kVertexTarget = "34962", *kIndexTarget = "34963";
-
-  Attributes out;
-  out.add(mesh.triangles.data(), static_cast<size_t>(mesh.triangles.size()), kIndexTarget,
-          R"("componentType":5125,"type":"SCALAR","count":)" + std::to_string(mesh.triangles.size()));
-  out.add(positions.data(), static_cast<size_t>(positions.size()), kVertexTarget,
-          R"("componentType":5126,"type":"VEC3")" + vertices + R"(,"min":)" + json_array(low) + R"(,"max":)" +
-              json_array(high));
-  out.add(normals.data(), static_cast<size_t>(normals.size()), kVertexTarget,
-          R"("componentType":5126,"type":"VEC3")" + vertices);
-  std::string attributes = R"("POSITION":1,"NORMAL":2)";
+  OrderedJsonDocument document;
+  Json& root = new_object(document.root());
+  root.get_ref<Json::object_t&>().reserve(16);
+  Json& asset = new_object(root["asset"]);
+  asset["version"] = "2.0", asset["generator"] = "focal";
+  root["scene"] = 0;
+  new_list(appended(root, "scenes")["nodes"]).push_back(0);
+  Json& node = appended(root, "nodes");
+  node["name"] = name, node["mesh"] = 0;
+  AccessorWriter data(root, {}, true);
+  const size_t indices = data.add(values_of<uint32_t>(mesh.triangles), 1, ViewTarget::indices);
+  const size_t vertices = data.add(values_of<float>(positions), 3, ViewTarget::vertices);
+  data.put_bounds(vertices, std::span(low.data(), 3), std::span(high.data(), 3));
+  const size_t normals = data.add(values_of<float>(smooth_normals(mesh)), 3, ViewTarget::vertices);
+  Json& element = appended(root, "meshes");
+  element["name"] = name;
+  Json& primitive =
+      (new_list(element["primitives"]).emplace_back(nullptr), new_object(element["primitives"][0]));
+  Json& attributes = new_object(primitive["attributes"]);
+  attributes["POSITION"] = vertices, attributes["NORMAL"] = normals;
+  primitive["indices"] = indices, primitive["material"] = 0;
   if (colours.size() != 0) {
-    const auto bytes = colour_bytes(colours);
-    out.add(bytes.data(), bytes.size(), kVertexTarget,
-            R"("componentType":5121,"normalized":true,"type":"VEC4")" + vertices);
-    attributes += R"(,"COLOR_0":3)";
+    const size_t accessor = data.add(colour_bytes(colours), 4, ViewTarget::vertices);
+    data.accessor(accessor)["normalized"] = true;
+    attributes["COLOR_0"] = accessor;
   }
-  const std::string json =
-      R"({"asset":{"version":"2.0","generator":"focal"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"name":)" +
-      json_string(name) + R"(,"mesh":0}],"meshes":[{"name":)" + json_string(name) +
-      R"(,"primitives":[{"attributes":{)" + attributes +
-      R"(},"indices":0,"material":0}]}],"materials":[{"pbrMetallicRoughness":{"metallicFactor":0,"roughnessFactor":0.8},)"
-      R"("doubleSided":true}],"accessors":[)" +
-      out.accessors + R"(],"bufferViews":[)" + out.views + R"(],"buffers":[{"byteLength":)" +
-      std::to_string(out.data.size()) + "}]}";
-  return glb_bytes(json, bin_chunk(out.data));
+  put_material(root);
+  const std::vector<std::byte> bin = data.finish();
+  return glb_bytes(root.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), bin_chunk(bin));
 }
 
 }  // namespace focal

@@ -151,8 +151,10 @@ MapFit fit_of(const LandmarkModel& model, const SurfaceAnalysis& analysis,
 }  // namespace
 
 MapFit quick_map_fit(const LandmarkModel& model, const SurfaceAnalysis& analysis, const Placement& placement,
-                     const Execution& execution) {
-  return fit_of(model, analysis, maps_from(model, analysis, placement, quick, execution));
+                     int32_t shapes, const Execution& execution) {
+  CarryParams params = quick;
+  params.most_alike = shapes;
+  return fit_of(model, analysis, maps_from(model, analysis, placement, params, execution));
 }
 
 void join_carried_marks(const LandmarkModel& model, const SurfaceAnalysis& analysis, Quality quality,

@@ -13,11 +13,12 @@ namespace focal {
 void join_carried_marks(const LandmarkModel& model, const SurfaceAnalysis& analysis, Quality quality,
                         Placement& placement, const Execution& execution);
 
-// How well the maps of a few training shapes, started from the placement, fit.
+// How well maps of training shapes, started from the placement, fit.
 struct MapFit {
   double residual = 0, bulge_agreement = 0;  // means over the maps
 };
+// Of coarse maps. shapes: only those of its exemplars whose first steps fit best; 0: all.
 MapFit quick_map_fit(const LandmarkModel& model, const SurfaceAnalysis& analysis, const Placement& placement,
-                     const Execution& execution);
+                     int32_t shapes, const Execution& execution);
 
 }  // namespace focal

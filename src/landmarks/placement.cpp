@@ -12,6 +12,7 @@
 #include "landmarks/leaf_votes.h"
 #include "landmarks/orientation.h"
 #include "landmarks/refine.h"
+#include "landmarks/shape_starts.h"
 #include "mesh/fill_holes.h"
 #include "mesh/nearest_vertex.h"
 #include "vote/peaks.h"
@@ -31,6 +32,12 @@ constexpr double bulge_weight = 80, level_weight = 10;
 // Where a heading is supposed, votes are nearly right: fewer candidates and starts do.
 constexpr int32_t oriented_peaks = 5, oriented_restarts = 12;
 constexpr double energy_margin = 20;  // hypotheses that cost more than the best by this are not looked at
+// Where the maps from the votes' places bulge as the body does, no training shapes are laid over it.
+constexpr double convincing_bulge = 0.15;
+constexpr size_t tried_starts = 3;  // of training shapes laid over, a heading
+constexpr double cover_margin =
+    1.06;                          // of the least distance: headings in which they lie farther off are wrong
+constexpr int32_t few_shapes = 3;  // whose maps judge the votes' places
 
 // Votes of the first `count` samples, vertices x landmarks.
 RowMatrixf cast_votes(const LandmarkModel& model, const SurfaceAnalysis& analysis, const RowMatrixf& features,
@@ -148,7 +155,15 @@ struct Supposition {
   std::vector<ConstellationChoice> choices;
   Placement start;
   double penalty = 0;
+
+  double least_cost() const { return choices[0].energy + penalty; }
 };
+
+double least_cost(const std::vector<Supposition>& suppositions) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Supposition& one : suppositions) least = std::min(least, one.least_cost());
+  return least;
+}
 
 Supposition suppose(const LandmarkModel& model, const SurfaceAnalysis& analysis, const Heading& heading,
                     int32_t samples, const DetectParams& params, const Execution& execution,
@@ -189,6 +204,88 @@ Supposition suppose(const LandmarkModel& model, const SurfaceAnalysis& analysis,
   return result;
 }
 
+struct Hypothesis {
+  double energy = 0;  // of the choice and its supposition
+  Placement placement;
+  double cost = 0, bulge_agreement = 0;  // see judge
+};
+
+// Those that the votes suggest.
+std::vector<Hypothesis> hypotheses_of(const std::vector<Supposition>& suppositions, int32_t samples,
+                                      const SurfaceAnalysis& analysis, const Execution& execution) {
+  const double least = least_cost(suppositions);
+  std::vector<Hypothesis> result;
+  for (const Supposition& from : suppositions)
+    for (const ConstellationChoice& choice : from.choices) {
+      if (choice.energy + from.penalty > least + energy_margin) continue;
+      result.push_back({choice.energy + from.penalty, from.start});
+      record_evidence(from.peaks, from.candidates, choice, samples, from.vertices, result.back().placement);
+      refine_placement(from.statistics, analysis, result.back().placement, execution);
+    }
+  return result;
+}
+
+// Landmarks where a training shape that was laid over the body has them.
+Hypothesis hypothesis_of(const LandmarkModel& model, const Supposition& from,
+                         const std::vector<int32_t>& exemplars, const std::vector<SurfacePoint>& places,
+                         int32_t samples, const SurfaceAnalysis& analysis, const Execution& execution) {
+  Hypothesis result{from.least_cost(), from.start};
+  Placement& placement = result.placement;
+  placement.exemplars = exemplars;
+  std::vector<std::vector<int32_t>> corners(places.size());
+  for (size_t l = 0; l < places.size(); ++l)
+    if (placement.is_fixed(l) || places[l].triangle >= 0)
+      corners[l] = {
+          nearest_corner(analysis.surface(), placement.is_fixed(l) ? *placement.fixed[l] : places[l])};
+  std::vector<int32_t> vertices;
+  ConstellationCandidates candidates =
+      make_candidates(corners, placement.votes, analysis, vertices, execution);
+  candidates.certain = from.candidates.certain;
+  for (size_t l = 0; l < places.size(); ++l)
+    for (int32_t i = candidates.start[l]; i < candidates.start[l + 1]; ++i)
+      candidates.unary[i] =
+          1 - placement.votes(vertices[i], l) / std::max(placement.votes.col(l).maxCoeff(), 1e-30f);
+  const auto choices = choose_constellations(statistics_of(model, exemplars), candidates,
+                                             {.restarts = 1, .most_choices = 1}, execution);
+  record_evidence(from.peaks, candidates, choices[0], samples, vertices, placement);
+  placement.point = places;
+  for (size_t l = 0; l < places.size(); ++l)
+    if (placement.is_fixed(l)) placement.point[l] = *placement.fixed[l];
+  return result;
+}
+
+// Costs of the hypotheses by maps from them; the cheapest comes first. shapes: see quick_map_fit.
+void judge(const LandmarkModel& model, const SurfaceAnalysis& analysis, int32_t shapes,
+           const Execution& execution, std::vector<Hypothesis>& hypotheses) {
+  for (Hypothesis& one : hypotheses) {
+    const MapFit fit = quick_map_fit(model, analysis, one.placement, shapes, execution);
+    one.cost = one.energy + residual_weight * fit.residual - bulge_weight * fit.bulge_agreement;
+    one.bulge_agreement = fit.bulge_agreement;
+  }
+  std::stable_sort(hypotheses.begin(), hypotheses.end(),
+                   [](const auto& a, const auto& b) { return a.cost < b.cost; });
+}
+
+// Landmarks as training shapes have them that are laid over the body, in every likely orientation in which they cover it well.
+void add_laid_over(const LandmarkModel& model, const std::vector<Supposition>& suppositions, int32_t samples,
+                   const SurfaceAnalysis& analysis, const Execution& execution,
+                   std::vector<Hypothesis>& hypotheses) {
+  const double limit = least_cost(suppositions) + energy_margin;
+  std::vector<ShapeStarts> over;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Supposition& from : suppositions) {
+    over.push_back(from.least_cost() > limit ? ShapeStarts{}
+                                             : lay_shapes_over(model, analysis, from.start.frame,
+                                                               used_exemplars, tried_starts, execution));
+    if (!over.back().places.empty()) least = std::min(least, over.back().apart);
+  }
+  for (size_t s = 0; s < suppositions.size(); ++s)
+    if (over[s].apart < cover_margin * least)
+      for (const auto& places : over[s].places)
+        hypotheses.push_back(
+            hypothesis_of(model, suppositions[s], over[s].exemplars, places, samples, analysis, execution));
+}
+
 }  // namespace
 
 Placement place_landmarks(const LandmarkModel& model, const SurfaceAnalysis& analysis, int32_t sample_limit,
@@ -198,36 +295,16 @@ Placement place_landmarks(const LandmarkModel& model, const SurfaceAnalysis& ana
   const std::vector<Heading> headings =
       frame ? std::vector<Heading>{{*frame, 0}} : headings_to_try(model, analysis, params.orientation);
   std::vector<Supposition> suppositions;
-  double least_energy = std::numeric_limits<double>::infinity();
-  for (const Heading& heading : headings) {
+  for (const Heading& heading : headings)
     suppositions.push_back(suppose(model, analysis, heading, samples, params, execution, seconds));
-    least_energy =
-        std::min(least_energy, suppositions.back().choices[0].energy + suppositions.back().penalty);
-  }
   Stopwatch watch;
-  struct Hypothesis {
-    size_t supposition, choice;
-    double cost;
-    Placement placement;
-  };
-  std::vector<Hypothesis> hypotheses;
-  for (size_t s = 0; s < suppositions.size(); ++s)
-    for (size_t c = 0; c < suppositions[s].choices.size(); ++c)
-      if (const double cost = suppositions[s].choices[c].energy + suppositions[s].penalty;
-          cost <= least_energy + energy_margin)
-        hypotheses.push_back({s, c, cost, {}});
-  for (Hypothesis& one : hypotheses) {
-    const Supposition& from = suppositions[one.supposition];
-    one.placement = from.start;
-    record_evidence(from.peaks, from.candidates, from.choices[one.choice], samples, from.vertices,
-                    one.placement);
-    refine_placement(from.statistics, analysis, one.placement, execution);
-    if (hypotheses.size() == 1) break;
-    const MapFit fit = quick_map_fit(model, analysis, one.placement, execution);
-    one.cost += residual_weight * fit.residual - bulge_weight * fit.bulge_agreement;
+  std::vector<Hypothesis> hypotheses = hypotheses_of(suppositions, samples, analysis, execution);
+  const bool lays_over = can_be_laid_over(model);
+  if (hypotheses.size() > 1 || lays_over) judge(model, analysis, few_shapes, execution, hypotheses);
+  if (lays_over && hypotheses[0].bulge_agreement < convincing_bulge) {
+    add_laid_over(model, suppositions, samples, analysis, execution, hypotheses);
+    judge(model, analysis, 0, execution, hypotheses);
   }
-  std::stable_sort(hypotheses.begin(), hypotheses.end(),
-                   [](const auto& a, const auto& b) { return a.cost < b.cost; });
   Placement result = std::move(hypotheses[0].placement);
   result.runner_up = hypotheses.size() > 1 ? hypotheses[1].cost - hypotheses[0].cost
                                            : std::numeric_limits<double>::infinity();

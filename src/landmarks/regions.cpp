@@ -9,7 +9,9 @@ namespace focal {
 
 DistanceFields::DistanceFields(Proxy proxy, const Execution& execution) : proxy_(std::move(proxy)) {
   const PreparedMesh& coarse = *proxy_.coarse;
-  heat_ = HeatMethod(coarse.surface, make_operators(coarse.surface, bridges_of(coarse), true), execution);
+  const auto bridges = bridges_of(coarse);
+  heat_ =
+      HeatMethod(coarse.surface, make_operators(coarse.surface, bridges, true), execution, 1, false, bridges);
   places_ = coarse_place_of_vertices(proxy_, execution);
 }
 

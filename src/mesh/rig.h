@@ -13,7 +13,7 @@ struct Joint {
   std::string name;
   int32_t parent = -1;                 // comes before it; -1: a root
   Matrix4 bind = Matrix4::Identity();  // from the joint's own coordinates to those of the mesh
-  int32_t node = -1;                   // of the file that it was read from; -1: none
+  int32_t node = -1;                   // of the file that it was read from
 };
 
 struct Influence {
@@ -29,18 +29,6 @@ struct Rig {
   std::vector<VertexInfluences> influences;  // one a vertex
   // What comes after these where more than most_influences joints may move a vertex: one a vertex, both together have sum 1.
   std::vector<VertexInfluences> more = {};  // empty: nothing does
-};
-
-// How a joint stands to its parent over time.
-struct JointKeys {
-  std::vector<Eigen::Quaterniond> rotation;  // one a time; empty: it stays as it is
-  std::vector<Vector3> translation;          // likewise
-};
-
-struct JointAnimation {
-  std::string name;
-  std::vector<double> times;      // seconds, ascending
-  std::vector<JointKeys> joints;  // one a joint
 };
 
 // The heaviest of any number of influences, scaled to sum 1; of one joint they are added up.

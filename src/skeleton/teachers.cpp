@@ -1,7 +1,6 @@
 #include "skeleton/teachers.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -9,6 +8,7 @@
 #include <tuple>
 
 #include "base/error.h"
+#include "skeleton/joint_match.h"
 
 namespace focal {
 namespace {
@@ -52,66 +52,6 @@ std::vector<Names> moving_joints(const std::vector<RiggedMesh>& characters) {
   return result;
 }
 
-// Prefixes that exporters write; the root joint may be called so itself, or lack it.
-size_t known_prefix(const std::string& name) {
-  const auto after_digits = [&](size_t at) {
-    while (at < name.size() && std::isdigit(static_cast<unsigned char>(name[at]))) ++at;
-    return at;
-  };
-  if (name.starts_with("mixamorig"))
-    if (const size_t at = after_digits(9); at < name.size() && (name[at] == ':' || name[at] == '_'))
-      return at + 1;
-  if (name.starts_with("Armature") && name.size() > 9 && (name[8] == '_' || name[8] == '|')) return 9;
-  if (name.starts_with("Bip"))
-    if (const size_t at = after_digits(3);
-        at > 3 && at + 1 < name.size() && (name[at] == ' ' || name[at] == '_'))
-      return at + 1;
-  return 0;
-}
-
-// All of them: "Armature_mixamorig:".
-size_t known_prefixes(const std::string& name) {
-  size_t all = 0;
-  while (const size_t one = known_prefix(name.substr(all))) all += one;
-  return all;
-}
-
-size_t shared_prefix(const Names& names) {
-  size_t length = names.empty() ? 0 : names[0].size();
-  for (const std::string& name : names) {
-    const auto [at, other] = std::mismatch(name.begin(), name.end(), names[0].begin(), names[0].end());
-    length = std::min(length, static_cast<size_t>(at - name.begin()));
-    length = std::min(length, name.empty() ? 0 : name.size() - 1);  // something must be left
-  }
-  return names.size() > 1 ? length : 0;
-}
-
-enum class Spelling { as_written, without_prefix, without_any_prefix };
-
-// How long the prefix of each name is that does not count.
-std::vector<size_t> prefixes(const Names& names, Spelling spelling) {
-  std::vector<size_t> result(names.size(), 0);
-  if (spelling == Spelling::as_written) return result;
-  std::transform(names.begin(), names.end(), result.begin(), known_prefixes);
-  if (std::any_of(result.begin(), result.end(), [](size_t length) { return length > 0; })) return result;
-  size_t length = shared_prefix(names);
-  const auto separates = [&](size_t at) {
-    return std::string_view(":|_. -").find(names[0][at]) != std::string::npos;
-  };
-  if (spelling == Spelling::without_prefix)
-    while (length > 0 && !separates(length - 1)) --length;
-  std::fill(result.begin(), result.end(), length);
-  return result;
-}
-
-Names spelled(const Names& names, Spelling spelling) {
-  const std::vector<size_t> prefix = prefixes(names, spelling);
-  Names result;
-  for (size_t i = 0; i < names.size(); ++i) result.push_back(names[i].substr(prefix[i]));
-  // A file in which two joints would get one name keeps its own.
-  return std::set<std::string>(result.begin(), result.end()).size() == names.size() ? result : names;
-}
-
 std::map<std::string, int32_t> counted(const std::vector<Names>& characters) {
   std::map<std::string, int32_t> result;
   for (const Names& names : characters)
@@ -130,7 +70,8 @@ int64_t matches(const std::vector<Names>& characters) {
 Spelling best_spelling(const std::vector<Names>& moving) {
   Spelling best = Spelling::as_written;
   int64_t most = matches(moving);
-  for (const Spelling spelling : {Spelling::without_prefix, Spelling::without_any_prefix}) {
+  for (const Spelling spelling :
+       {Spelling::without_prefix, Spelling::without_any_prefix, Spelling::humanoid}) {
     std::vector<Names> tried;
     for (const Names& names : moving) tried.push_back(spelled(names, spelling));
     if (const int64_t count = matches(tried); count > most) most = count, best = spelling;

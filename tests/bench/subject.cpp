@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "creatures/character.h"
-#include "gltf/reader.h"
+#include "gltf/one_call.h"
 #include "landmarks/train.h"
 #include "large_mesh.h"
 #include "mesh/nearest_vertex.h"

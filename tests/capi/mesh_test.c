@@ -37,6 +37,14 @@ static void check_good(const shape* body) {
   CHECK(memcmp(position, body->positions + 3 * body->marks[1], sizeof position) == 0);
   CHECK_REFUSED(focal_mesh_point_at_vertex(mesh, FOCAL_NO_VERTEX, &point), FOCAL_ERROR_INVALID_LANDMARK,
                 "no vertex 4294967295");
+  const float outside[3] = {position[0] * 1.001f, position[1] * 1.001f, position[2] * 1.001f};
+  const float nowhere[3] = {0, NAN, 0};
+  float nearest[3];
+  CHECK_OK(focal_mesh_closest_point(mesh, outside, &point));
+  CHECK_OK(focal_mesh_position_of(mesh, &point, nearest));
+  for (int i = 0; i < 3; ++i) CHECK(fabs(nearest[i] - position[i]) < 0.01);
+  CHECK_REFUSED(focal_mesh_closest_point(mesh, nowhere, &point), FOCAL_ERROR_INVALID_ARGUMENT, "not finite");
+  CHECK_REFUSED(focal_mesh_closest_point(mesh, NULL, &point), FOCAL_ERROR_INVALID_ARGUMENT, "position");
   point.triangle = 1u << 30;
   CHECK_REFUSED(focal_mesh_position_of(mesh, &point, position), FOCAL_ERROR_INVALID_LANDMARK, "no triangle");
   point.triangle = 0, point.barycentric[0] = NAN;

@@ -120,10 +120,36 @@ TEST_CASE("bridged parts are a finite distance apart") {
   both.triangles << one.triangles, (one.triangles.array() + n).matrix();
   const PreparedMesh mesh = prepare(both);
   const std::vector<int32_t> sources = {1};  // (-1, 0, 0), far from the other part
-  const RowMatrixf d =
-      HeatMethod(mesh.surface, make_operators(mesh.surface, bridges_of(mesh))).distances(sources, {});
+  const auto bridges = bridges_of(mesh);
+  const HeatMethod heat(mesh.surface, make_operators(mesh.surface, bridges), {}, 1, false, bridges);
+  const RowMatrixf d = heat.distances(sources, {});
   CHECK(d.allFinite());
   CHECK(d.row(0).tail(n).minCoeff() > d.row(0).head(n).mean());  // the other part lies beyond
+}
+
+TEST_CASE("what lies beyond a bridge is farther by the length of its gap") {
+  const TriangleMesh one = sphere(3);
+  const int32_t n = one.vertex_count();
+  for (const double gap : {0.5, 20.0}) {
+    TriangleMesh both{MatrixX3(2 * n, 3), MatrixX3i(2 * one.triangle_count(), 3)};
+    both.positions << one.positions, one.positions.rowwise() + Eigen::RowVector3d(2 + gap, 0, 0);
+    both.triangles << one.triangles, (one.triangles.array() + n).matrix();
+    PrepareParams as_it_is;
+    as_it_is.analysed = AnalysedSurface::as_it_is;
+    const PreparedMesh mesh = prepare(both, as_it_is);
+    const auto bridges = bridges_of(mesh);
+    const HeatMethod heat(mesh.surface, make_operators(mesh.surface, bridges), {}, 1, false, bridges);
+    for (const int32_t source : {int32_t{1}, n + 1}) {  // from either side
+      const std::vector<int32_t> sources = {source};
+      const Vector d = (mesh.scale * heat.distances(sources, {}).row(0)).cast<double>().transpose();
+      const bool first = source < n;
+      const double near = first ? d.head(n).maxCoeff() : d.tail(n).maxCoeff();
+      const double far = first ? d.tail(n).minCoeff() : d.head(n).minCoeff();
+      CAPTURE(gap);
+      CHECK(far > gap);
+      CHECK(far < near + 1.3 * gap + 0.5);
+    }
+  }
 }
 
 TEST_CASE("cancelling stops it") {

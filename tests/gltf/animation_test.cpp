@@ -1,6 +1,4 @@
 // Animations are sampled as the standard says, and those put into a file are read back the same.
-#include "gltf/animation.h"
-
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
@@ -10,8 +8,9 @@
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "evaluation_data.h"
+#include "gltf/document.h"
 #include "gltf/gltf_builder.h"
-#include "gltf/writer.h"
+#include "gltf/one_call.h"
 
 using namespace focal;
 using namespace focal_test;
@@ -47,26 +46,32 @@ double angle_of(const Matrix4& m) { return std::atan2(m(1, 0), m(0, 0)); }
 
 }  // namespace
 
-TEST_CASE("keys of all channels, between them linear or a step, after the last its value") {
+TEST_CASE("keys are kept as they are; between them linear or a step, after the last its value") {
   const auto linear = read_gltf_animations(turning("LINEAR").glb());
-  REQUIRE(linear.size() == 1);
-  CHECK(linear[0].name == "wave");
-  CHECK(linear[0].times == std::vector<double>{0, 1, 2});
-  const auto& arm = linear[0].joints.at("arm");
-  CHECK(angle_of(arm[1]) == doctest::Approx(std::numbers::pi / 4).epsilon(1e-5));
-  CHECK((arm[1].topRightCorner<3, 1>() - Vector3(4, 1, 0)).norm() < 1e-6);
-  CHECK((arm[2].topRightCorner<3, 1>() - Vector3(4, 1, 0)).norm() < 1e-6);
-  CHECK((linear[0].joints.at("up")[2].topRightCorner<3, 1>() - Vector3(0, 1, 0)).norm() < 1e-6);
+  REQUIRE(linear.clips.size() == 1);
+  CHECK(linear.clips[0].name == "wave");
+  REQUIRE(linear.clips[0].channels.size() == 2);
+  CHECK(linear.clips[0].channels[0].keys.times == std::vector<double>{0, 2});
+  CHECK(linear.clips[0].channels[1].keys.times == std::vector<double>{0, 1});
+  const auto arm_at = [](const GltfAnimations& from, double time) {
+    return world_transforms(from.tree, &from.clips[0], time)[2];
+  };
+  CHECK(angle_of(arm_at(linear, 1)) == doctest::Approx(std::numbers::pi / 4).epsilon(1e-5));
+  CHECK(angle_of(arm_at(linear, 0.5)) == doctest::Approx(std::numbers::pi / 8).epsilon(1e-5));
+  CHECK((arm_at(linear, 1).topRightCorner<3, 1>() - Vector3(4, 1, 0)).norm() < 1e-6);
+  CHECK((arm_at(linear, 9).topRightCorner<3, 1>() - Vector3(4, 1, 0)).norm() < 1e-6);
+  CHECK((world_transforms(linear.tree)[1].topRightCorner<3, 1>() - Vector3(0, 1, 0)).norm() < 1e-6);
   const auto step = read_gltf_animations(turning("STEP").glb());
-  CHECK(angle_of(step[0].joints.at("arm")[1]) == doctest::Approx(0));
-  CHECK(read_gltf_animations(tetrahedron().glb()).empty());
-  CHECK(read_gltf_animations(turning("LINEAR").glb(), {}, {}, 2)[0].times.size() == 2);
+  CHECK(step.clips[0].channels[0].keys.interpolation == Interpolation::step);
+  CHECK(angle_of(arm_at(step, 1.99)) == doctest::Approx(0));
+  CHECK(angle_of(arm_at(step, 2)) == doctest::Approx(std::numbers::pi / 2).epsilon(1e-5));
+  CHECK(read_gltf_animations(tetrahedron().glb()).clips.empty());
 }
 
 TEST_CASE("keys that do not fit are refused") {
   CHECK_THROWS_AS(read_gltf_animations(turning("LINEAR", {0, 0}).glb()), Error);
   CHECK_THROWS_AS(read_gltf_animations(turning("LINEAR", {0}).glb()), Error);
-  CHECK_THROWS_AS(read_gltf_animations(turning("LINEAR").glb(), {.decoded_bytes = 1024}), Error);
+  CHECK_THROWS_AS(read_gltf_animations(turning("LINEAR").glb(), {.decoded_bytes = 100}), Error);
   GltfBuilder file = turning("LINEAR");
   file.root["animations"][0]["samplers"][0]["output"] = 99;
   CHECK_THROWS_AS(read_gltf_animations(file.glb()), Error);
@@ -89,14 +94,17 @@ TEST_CASE("channels that move something else than a place are passed over") {
         json{{"node", 2}, {"path", 3}}, json{{"node", 2}, {"path", "weights"}}}) {
     CAPTURE(target.dump());
     const auto animations = with_target(target);
-    REQUIRE(animations.size() == 1);
-    CHECK(animations[0].times == std::vector<double>{0, 2});  // the turn's alone
+    REQUIRE(animations.clips.size() == 1);
+    CHECK(animations.clips[0].channels.size() == 1);  // the turn alone
+    REQUIRE(animations.warnings.size() == 1);         // and the other is named
+    CHECK(animations.warnings[0].find("'wave'") != std::string::npos);
   }
   GltfBuilder file = turning("LINEAR");
   file.root["animations"][0]["channels"][1]["target"]["path"] = "scale";
   const auto scaled = read_gltf_animations(file.glb());
-  CHECK(scaled[0].times == std::vector<double>{0, 1, 2});
-  CHECK(scaled[0].joints.at("arm")[1].topLeftCorner<3, 3>().col(0).norm() == doctest::Approx(4));
+  CHECK(scaled.warnings.empty());
+  const auto arm = world_transforms(scaled.tree, &scaled.clips[0], 1)[2];
+  CHECK(arm.topLeftCorner<3, 3>().col(0).norm() == doctest::Approx(4));
 }
 
 TEST_CASE("cubic keys follow their tangents") {
@@ -107,18 +115,18 @@ TEST_CASE("cubic keys follow their tangents") {
   const int times = file.add_accessor(std::vector<float>{0, 2}, "SCALAR");
   file.root["animations"][0]["samplers"][1] = {
       {"input", times}, {"output", keys}, {"interpolation", "CUBICSPLINE"}};
-  const int moments =
-      file.add_accessor(std::vector<float>{0, 1}, "SCALAR");  // of the turn: asks for the place at 1 s
-  file.root["animations"][0]["samplers"][0]["input"] = moments;
-  const auto animation = read_gltf_animations(file.glb()).at(0);
-  CHECK(animation.times == std::vector<double>{0, 1, 2});
-  CHECK(animation.joints.at("arm")[1](0, 3) == doctest::Approx(0.5 * 4 + 2 * (1 - 3) / 8.0));
+  const auto read = read_gltf_animations(file.glb());
+  const Keys& cubic = read.clips.at(0).channels.at(1).keys;
+  CHECK(cubic.times == std::vector<double>{0, 2});
+  CHECK(cubic.values.rows() == 6);
+  CHECK(cubic.at(1)(0) == doctest::Approx(0.5 * 4 + 2 * (1 - 3) / 8.0));
+  CHECK(world_transforms(read.tree, &read.clips[0], 1)[2](0, 3) == doctest::Approx(cubic.at(1)(0)));
 }
 
 TEST_CASE("animations take no more memory than is allowed, exactly") {
-  const auto bytes = turning("LINEAR").glb();  // 3 times, 2 joints and what they share
-  const int64_t needed = 3 * (2 + 1) * static_cast<int64_t>(sizeof(Matrix4));
-  CHECK(read_gltf_animations(bytes, {.decoded_bytes = needed}).size() == 1);
+  const auto bytes = turning("LINEAR").glb();  // 2 times, 2 x 4 numbers; 2 times, 2 x 3 numbers
+  const int64_t needed = (2 + 8 + 2 + 6) * static_cast<int64_t>(sizeof(double));
+  CHECK(read_gltf_animations(bytes, {.decoded_bytes = needed}).clips.size() == 1);
   CHECK_THROWS_AS(read_gltf_animations(bytes, {.decoded_bytes = needed - 1}), Error);
 }
 
@@ -128,12 +136,11 @@ TEST_CASE("what is no animation is refused or passed over") {
     file.root[json::json_pointer(place)] = value;
     return read_gltf_animations(file.glb());
   };
-  CHECK(read("/animations", "none").empty());
-  CHECK(read("/animations/0/channels", json::array()).empty());
-  CHECK(read("/animations/0/channels/0/target/node", 0).size() ==
-        1);  // of the mesh's node; the other moves a joint
-  CHECK(read("/animations/0/name", 3).at(0).name == "animation");
-  CHECK(read("/nodes/1/name", 3).at(0).joints.size() == 1);
+  CHECK(read("/animations", "none").clips.empty());
+  CHECK(read("/animations/0/channels", json::array()).clips.empty());
+  CHECK(read("/animations/0/channels/0/target/node", 0).clips.size() == 1);  // the mesh's
+  CHECK(read("/animations/0/name", 3).clips.at(0).name == "animation");
+  CHECK(read("/nodes/1/name", 3).clips.size() == 1);
   for (const auto& change :
        std::vector<std::pair<const char*, json>>{{"/animations/0", 3},
                                                  {"/animations/0/channels", "none"},
@@ -156,28 +163,39 @@ TEST_CASE("an animation put in with a skin is read back the same") {
   rig.joints = {{"root", -1, Matrix4::Identity()}, {"arm", 0, Matrix4::Identity()}};
   rig.joints[1].bind(0, 3) = 1;
   for (int v = 0; v < 4; ++v) rig.influences.push_back({{{1, 1}}});
-  JointAnimation wave{"wave", {0, 0.5}, {{}, {}}};
-  wave.joints[1].rotation = {Eigen::Quaterniond::Identity(),
-                             Eigen::Quaterniond(Eigen::AngleAxisd(1.0, Vector3::UnitZ()))};
-  wave.joints[0].translation = {Vector3::Zero(), Vector3(0, 0, 3)};
+  JointAnimation wave{"wave", std::vector<JointKeys>(2)};
+  Keys& turn = wave.joints[1].rotation;
+  turn.times = {0, 0.5, 0.75};
+  turn.values.setZero(9, 4);
+  for (int k = 0; k < 3; ++k)
+    turn.values.row(3 * k + 1) =
+        Eigen::Quaterniond(Eigen::AngleAxisd(k, Vector3::UnitZ())).coeffs().transpose();
+  turn.values.row(2) << 0, 0, 2, 0;
+  turn.interpolation = Interpolation::cubic;
+  Keys& move = wave.joints[0].translation;
+  move.times = {0, 0.5};
+  move.values = (RowMatrix(2, 3) << 0, 0, 0, 0, 0, 3).finished();
+  move.interpolation = Interpolation::step;
   const auto written = add_skin(source, read_gltf_memory(source).primitives, {&rig, {}, {}, {wave}});
   const auto read = read_gltf_animations(written);
-  REQUIRE(read.size() == 1);
-  CHECK(read[0].times == wave.times);
-  CHECK(angle_of(read[0].joints.at("arm")[1]) == doctest::Approx(1.0).epsilon(1e-5));
-  CHECK((read[0].joints.at("arm")[1].topRightCorner<3, 1>() - Vector3(1, 0, 3)).norm() < 1e-5);
+  REQUIRE(read.clips.size() == 1);
+  REQUIRE(read.clips[0].channels.size() == 2);
+  for (const Channel& channel : read.clips[0].channels) {
+    const Keys& given = channel.property == NodeProperty::rotation ? turn : move;
+    CHECK(channel.keys.times == given.times);
+    CHECK(channel.keys.interpolation == given.interpolation);
+    CHECK((channel.keys.values - given.values).norm() < 1e-6);
+  }
 }
 
 TEST_CASE("animations of real characters are read, every joint at every time") {
   const auto folder = evaluation_set("rigs");
   if (!folder) return;
   for (const char* name : {"fox.glb", "cesium_man.glb", "kaykit_knight.glb"}) {
-    const auto animations = read_gltf_animations(read_file(*folder / name), {}, {}, 20);
-    CHECK_FALSE(animations.empty());
-    for (const auto& animation : animations)
-      for (const auto& [joint, track] : animation.joints) {
-        CHECK(track.size() == animation.times.size());
-        for (const Matrix4& m : track) CHECK(m.allFinite());
-      }
+    const auto animations = read_gltf_animations(read_file(*folder / name));
+    CHECK_FALSE(animations.clips.empty());
+    for (const Clip& clip : animations.clips)
+      for (const double time : {0.0, 0.3, 1.0})
+        for (const Matrix4& world : world_transforms(animations.tree, &clip, time)) CHECK(world.allFinite());
   }
 }

@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "gltf/gltf_builder.h"
-#include "gltf/reader.h"
+#include "gltf/one_call.h"
 
 using namespace focal;
 using namespace focal_test;
@@ -58,9 +58,9 @@ TEST_CASE("one step beyond each bound is refused, the bound itself is not") {
       {"/bufferViews/0/byteStride", 13, "reaching beyond its buffer view"},
       {"/bufferViews/0/byteStride", 252, "reaching beyond its buffer view"},
       {"/bufferViews/0/byteStride", 253, "byteStride is 253, outside 4 to 252"},
-      {"/accessors/0/count", 0, "accessors[0].count is 0, outside 1"},
+      {"/accessors/0/count", 0, "accessors[0].count is 0: the accessor is empty"},
       {"/accessors/0/count", 5, "accessors[0].count is 5, reaching beyond its buffer view"},
-      {"/accessors/0/count", 9007199254740992.0, "count is 9007199254740992, outside 1"},
+      {"/accessors/0/count", 9007199254740992.0, "count is 9007199254740992, outside 0"},
       {"/accessors/0/count", 9007199254740994.0, "accessors[0].count is not a whole number"},
       {"/accessors/0/count", uint64_t{1} << 63, "accessors[0].count is not a whole number"},
       {"/accessors/0/count", 3.5, "accessors[0].count is not a whole number"},

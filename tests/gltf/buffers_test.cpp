@@ -218,11 +218,13 @@ TEST_CASE("what is decoded has a limit in all, exactly") {
 
 TEST_CASE("a URI is data or the name of a file") {
   const GltfBuilder file = tetrahedron();
-  for (const char* uri : {"", "%zz", "a%2", "a%00b", "C:/a.bin", "http://x/a.bin"}) {
+  for (const char* uri : {"", "a%00b", "C:/a.bin", "C:\\a.bin", "http://x/a.bin"}) {
     CAPTURE(uri);
     check_error(error_of(file.gltf(uri)), "is neither data nor the name of a file beside this one");
   }
   check_error(error_of(file.gltf("a%20b.bin")), "lies in another file, 'a b.bin'");
+  check_error(error_of(file.gltf("10% a%2.bin")), "lies in another file, '10% a%2.bin'");
+  check_error(error_of(file.gltf("b\\a.bin")), "lies in another file, 'b/a.bin'");
   check_error(error_of(file.gltf("data:;base64,!!!!")), "is not a well-formed base64 data URI");
   check_error(error_of(file.gltf("data:;base64,AAAA")), "is 72 where 3 bytes are");
 }

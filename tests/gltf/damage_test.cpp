@@ -10,10 +10,10 @@
 #include "base/error.h"
 #include "base/random.h"
 #include "evaluation_data.h"
+#include "gltf/document.h"
 #include "gltf/gltf_builder.h"
+#include "gltf/one_call.h"
 #include "gltf/preflight.h"
-#include "gltf/reader.h"
-#include "gltf/writer.h"
 
 using namespace focal;
 using namespace focal_test;

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/error.h"
-#include "gltf/glb.h"
-#include "gltf/reader.h"
+#include "gltf/container.h"
+#include "gltf/one_call.h"
 
 namespace focal_test {
 
@@ -89,7 +89,7 @@ inline std::vector<std::byte> bytes_of(const std::string& text) {
 // "" when it is read; a missing pattern shows the message that came instead.
 inline std::string error_of(std::span<const std::byte> file, const focal::GltfLimits& limits = {}) {
   try {
-    focal::read_gltf_memory(file, {.limits = limits});
+    focal_test::read_gltf_memory(file, {.limits = limits});
     return "";
   } catch (const focal::Error& error) {
     return error.what();

@@ -7,9 +7,9 @@
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "evaluation_data.h"
+#include "gltf/document.h"
 #include "gltf/gltf_builder.h"
 #include "gltf/preflight.h"
-#include "gltf/writer.h"
 
 using namespace focal;
 using namespace focal_test;

@@ -13,7 +13,7 @@
 #include <filesystem>
 
 #include "evaluation_data.h"
-#include "gltf/reader.h"
+#include "gltf/one_call.h"
 
 namespace {
 
@@ -61,7 +61,7 @@ TEST_CASE("our reader and tinygltf agree on the rigs") {
     tinygltf::Model model;
     std::string error, warning;
     REQUIRE(loader.LoadBinaryFromFile(&model, &error, &warning, entry.path().string()));
-    const focal::GltfMesh ours = focal::read_gltf(entry.path());
+    const focal::GltfMesh ours = focal_test::read_gltf(entry.path());
     for (const auto& part : ours.primitives) {
       const auto& primitive = model.meshes[part.mesh].primitives[part.primitive];
       const auto& accessor = model.accessors[primitive.attributes.at("POSITION")];

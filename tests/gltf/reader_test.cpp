@@ -1,6 +1,4 @@
 // Every way glTF can store a triangle mesh, against positions and triangles worked out by hand.
-#include "gltf/reader.h"
-
 #include <doctest/doctest.h>
 #include <sys/stat.h>
 
@@ -11,6 +9,7 @@
 #include "base/error.h"
 #include "evaluation_data.h"
 #include "gltf/gltf_builder.h"
+#include "gltf/one_call.h"
 
 using namespace focal;
 using namespace focal_test;
@@ -151,7 +150,7 @@ TEST_CASE("node transforms multiply from the root, and a mirror keeps triangles 
   CHECK((position(read_gltf_memory(file.glb()), 0) - Vector3(4, 5, 7)).norm() < 1e-12);
 }
 
-TEST_CASE("meshes come in scene order, each once; the default scene decides") {
+TEST_CASE("meshes come in scene order, every instance; the default scene decides") {
   GltfBuilder file = tetrahedron();
   file.add_mesh(0, 1);
   file.add_mesh(0, 1);
@@ -160,20 +159,25 @@ TEST_CASE("meshes come in scene order, each once; the default scene decides") {
   file.root["scenes"] = json::parse(R"([{"nodes":[4]},{"nodes":[0,3,1]}])");
   file.root["scene"] = 1;
   const GltfMesh mesh = read_gltf_memory(file.glb());
-  REQUIRE(mesh.primitives.size() == 3);
+  REQUIRE(mesh.primitives.size() == 4);
   CHECK(mesh.primitives[0].mesh == 1);
   CHECK(mesh.primitives[1].mesh == 2);
   CHECK(mesh.primitives[1].first_vertex == 4);
   CHECK(mesh.primitives[1].first_triangle == 4);
   CHECK(position(mesh, 4) == Vector3(1, 0, 0));  // the child moved with its parent
-  CHECK(mesh.primitives[2].mesh == 0);
-  CHECK(mesh.primitives[2].node == 1);
-  CHECK(mesh.warnings.size() == 1);  // the second instance of mesh 1
+  CHECK(mesh.primitives[2].mesh == 1);           // once more
+  CHECK(mesh.primitives[2].node == 3);
+  CHECK(mesh.primitives[2].first_vertex == 8);
+  CHECK(position(mesh, 8) == Vector3(0, 0, 0));
+  CHECK(mesh.primitives[3].mesh == 0);
+  CHECK(mesh.primitives[3].node == 1);
+  CHECK(mesh.pieces.size() == 4);
+  CHECK(mesh.warnings.empty());
 
   file.root.erase("scene");  // all scenes then
   CHECK(read_gltf_memory(file.glb()).primitives[0].node == 4);
   file.root.erase("scenes");  // all nodes then
-  CHECK(read_gltf_memory(file.glb()).primitives.size() == 3);
+  CHECK(read_gltf_memory(file.glb()).primitives.size() == 5);
   file.root.erase("nodes");  // all meshes then
   CHECK(read_gltf_memory(file.glb()).primitives[2].node == -1);
 }
@@ -308,7 +312,7 @@ TEST_CASE("a chain of 200,000 nodes, and as many siblings, are read without recu
         R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[)" + (chain ? "0" : children) +
         R"(]}],"nodes":[)" + nodes +
         R"(],"accessors":[{"componentType":5126,"type":"VEC3","count":3}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}]})";
-    CHECK(read_gltf_memory(bytes_of(text)).mesh.vertex_count() == 3);
+    CHECK(read_gltf_memory(bytes_of(text)).mesh.vertex_count() == (chain ? 3 : 3 * count));
   }
 }
 

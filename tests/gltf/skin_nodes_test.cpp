@@ -7,6 +7,17 @@
 using namespace focal;
 using namespace focal_test;
 
+namespace {
+
+JointAnimation moving_tip() {
+  JointAnimation wave{"wave", std::vector<JointKeys>(2)};
+  wave.joints[1].translation.times = {0, 1};
+  wave.joints[1].translation.values = (RowMatrix(2, 3) << 0, 0, 0, 0, 1, 0).finished();
+  return wave;
+}
+
+}  // namespace
+
 TEST_CASE("a mesh with a place or a parent goes to a root of its own, and stays where it is") {
   GltfBuilder file = tetrahedron();
   file.root["nodes"][0]["translation"] = {1, 2, 3};
@@ -29,17 +40,33 @@ TEST_CASE("a mesh with a place or a parent goes to a root of its own, and stays 
   CHECK(skinned == 2);
 }
 
-TEST_CASE("further instances of a mesh keep it without the skin") {
+TEST_CASE("each instance of a mesh gets a mesh and weights of its own; other scenes keep theirs") {
   GltfBuilder file = tetrahedron();
-  file.add_node({{"mesh", 0}, {"translation", {5, 0, 0}}});
+  file.add_node({{"mesh", 0}, {"translation", {5, 0, 0}}, {"scale", {-1, 1, 1}}});
+  file.add("nodes", {{"mesh", 0}, {"name", "elsewhere"}});
+  file.root["scenes"].push_back({{"nodes", {2}}});
   const auto source = file.glb();
-  const Rig rig = two_joints(4);
-  const auto written = add_skin(source, read_gltf_memory(source).primitives, {&rig, tips()});
+  const GltfMesh mesh = read_gltf_memory(source);
+  REQUIRE(mesh.primitives.size() == 2);
+  CHECK(mesh.primitives[1].mirrored);
+  Rig rig = two_joints(8);
+  for (size_t v = 4; v < 8; ++v) rig.influences[v] = {{{1, 1}}};
+  GltfDocument document(source);
+  auto primitives = mesh.primitives;
+  document.add_skin(primitives, {&rig, tips(), {}, {}, &mesh.mesh});
+  const auto written = document.bytes();
   const json root = parsed(written);
-  REQUIRE(root["meshes"].size() == 2);
-  CHECK(root["nodes"][1]["mesh"] == 1);
-  CHECK_FALSE(root["meshes"][1]["primitives"][0]["attributes"].contains("JOINTS_0"));
-  CHECK(read_gltf_memory(written).mesh.vertex_count() == 8);
+  CHECK(root["meshes"].size() == 3);
+  CHECK(primitives[1].mesh == 1);
+  CHECK_FALSE(primitives[1].mirrored);
+  const json& other = root["meshes"][root["nodes"][2]["mesh"].get<size_t>()];
+  CHECK(other == file.root["meshes"][0]);
+  const GltfMesh again = read_gltf_memory(written);
+  CHECK((again.mesh.positions - mesh.mesh.positions).norm() < 1e-5);
+  CHECK(again.mesh.triangles == mesh.mesh.triangles);
+  const auto read = read_gltf_rig(written, again.primitives);
+  REQUIRE(read.has_value());
+  check_same(*read, rig);
 }
 
 TEST_CASE("a .gltf gets its data as a URI, a .glb in its chunk, everything else stays") {
@@ -80,8 +107,7 @@ TEST_CASE("a second call replaces the skeleton of the first, with its animations
   {
     const Rig rig = two_joints(4);
     const GltfMesh mesh = read_gltf_memory(once);
-    JointAnimation wave{"wave", {0, 1}, std::vector<JointKeys>(2)};
-    wave.joints[1].translation = {{0, 0, 0}, {0, 1, 0}};
+    const JointAnimation wave = moving_tip();
     once = add_skin(once, mesh.primitives, {&rig, tips(), {}, {wave}, &mesh.mesh});
   }
   const json before = parsed(once);
@@ -140,8 +166,7 @@ TEST_CASE("animations of the file keep their names and their nodes") {
   const auto source = file.glb();
   const GltfMesh mesh = read_gltf_memory(source);
   const Rig rig = two_joints(4);
-  JointAnimation wave{"wave", {0, 1}, std::vector<JointKeys>(2)};
-  wave.joints[1].translation = {{0, 0, 0}, {0, 1, 0}};
+  const JointAnimation wave = moving_tip();
   const json root = parsed(add_skin(source, mesh.primitives, {&rig, tips(), {}, {wave}, &mesh.mesh}));
   REQUIRE(root["animations"].size() == 3);
   CHECK(root["animations"][0] == file.root["animations"][0]);
@@ -184,7 +209,7 @@ TEST_CASE("what only looks like an earlier skeleton of ours stays") {
     if (changes.contains("camera")) root["cameras"] = {{{"type", "perspective"}}};
     const auto again = glb_bytes(root.dump(), bin_chunk(open_container(written, {}).bin));
     const GltfMesh mesh = read_gltf_memory(again);
-    const Rig rig = two_joints(4);
+    const Rig rig = two_joints(static_cast<size_t>(mesh.mesh.vertex_count()));
     const json after = parsed(add_skin(again, mesh.primitives, {&rig, {}, {}, {}, &mesh.mesh}));
     return after["scenes"][0]["nodes"]
         .size();  // the mesh, the new skeleton, and the former one where it stays

@@ -1,11 +1,10 @@
 // Skeletons and weights go into the caller's file and come back the same; what is wrong with a skin is said.
-#include "gltf/skin.h"
-
 #include <limits>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "evaluation_data.h"
+#include "gltf/one_call.h"
 #include "gltf/small_skin.h"
 
 using namespace focal;
@@ -59,7 +58,7 @@ TEST_CASE("what a skin lacks") {
        {-0.5f, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
     const auto bytes = skinned_tetrahedron(0, wrong).glb();  // left out, and counted
     int64_t invalid = -1;
-    const auto none = read_gltf_rig(bytes, read_gltf_memory(bytes).primitives, {}, std::nullopt, &invalid);
+    const auto none = read_gltf_rig(bytes, read_gltf_memory(bytes).primitives, &invalid);
     REQUIRE(none.has_value());
     CHECK(invalid == 16);
     CHECK(none->influences[0][0].weight == 0);
@@ -159,7 +158,7 @@ TEST_CASE("a rig that does not suit the mesh, or is not finite, is refused") {
   CHECK(error_of_rig(good, {}, far) == "a joint's pose is not finite");
   Rig lost = good;
   lost.joints[1].bind(2, 3) = std::numeric_limits<double>::quiet_NaN();
-  CHECK(error_of_rig(lost) == "joint \"tip \\\"x\\\"\" is not finite");
+  CHECK(error_of_rig(lost) == "joint 'tip \"x\"' is not finite");
 }
 
 TEST_CASE("as many joints as 16 bits number, and no more") {

@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
+#include "gltf/document.h"
 #include "gltf/gltf_builder.h"
+#include "gltf/one_call.h"
 #include "gltf/preflight.h"
-#include "gltf/skin.h"
-#include "gltf/writer.h"
 
 namespace focal_test {
 
@@ -55,12 +55,12 @@ inline void check_same(const Rig& a, const Rig& b) {
 
 // With a rig of two joints put in and read again.
 inline Rig through_file(const std::vector<std::byte>& source, std::vector<std::byte>* written = nullptr) {
-  const GltfMesh mesh = focal::read_gltf_memory(source);
+  const GltfMesh mesh = focal_test::read_gltf_memory(source);
   const Rig rig = two_joints(static_cast<size_t>(mesh.mesh.vertex_count()));
-  const auto result = focal::add_skin(source, mesh.primitives, {&rig, tips(), {}, {}, &mesh.mesh});
-  const GltfMesh again = focal::read_gltf_memory(result);
+  const auto result = focal_test::add_skin(source, mesh.primitives, {&rig, tips(), {}, {}, &mesh.mesh});
+  const GltfMesh again = focal_test::read_gltf_memory(result);
   CHECK((again.mesh.positions - mesh.mesh.positions).norm() < 1e-5);
-  const auto read = focal::read_gltf_rig(result, again.primitives);
+  const auto read = focal_test::read_gltf_rig(result, again.primitives);
   REQUIRE(read.has_value());
   check_same(*read, rig);
   if (written) *written = result;

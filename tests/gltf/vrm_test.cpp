@@ -1,6 +1,4 @@
 // VRM 1.0: the humanoid map names the nodes of the joints, meta data is checked, everything else stays.
-#include "gltf/vrm.h"
-
 #include "base/error.h"
 #include "gltf/small_skin.h"
 
@@ -25,6 +23,13 @@ Rig avatar(size_t vertices) {
   return rig;
 }
 
+std::vector<std::byte> add_vrm(std::span<const std::byte> bytes, const std::vector<Joint>& joints,
+                               const std::vector<std::string>& all, std::string_view data) {
+  GltfDocument document(copy_of(bytes));
+  document.add_vrm(joints, all, data);
+  return document.bytes();
+}
+
 std::vector<std::string> roles() {
   auto result = bones;
   result.emplace_back();  // of the tail
@@ -38,7 +43,8 @@ TEST_CASE("bones name the nodes of their joints, the license is filled in") {
   file.root["extensions"] = {{"OTHER", {{"kept", true}}}};
   const auto source = file.glb();
   const Rig rig = avatar(4);
-  const auto skinned = add_skin(source, read_gltf_memory(source).primitives, {&rig, {}});
+  const auto skinned =
+      focal_test::add_skin(source, focal_test::read_gltf_memory(source).primitives, {&rig, {}});
   const json root = parsed(add_vrm(skinned, rig.joints, roles(), meta));
   const json& vrm = root["extensions"]["VRMC_vrm"];
   CHECK(vrm["specVersion"] == "1.0");
@@ -63,7 +69,8 @@ TEST_CASE("bones name the nodes of their joints, the license is filled in") {
 TEST_CASE("what VRM requires is required") {
   const auto source = tetrahedron().glb();
   const Rig rig = avatar(4);
-  const auto skinned = add_skin(source, read_gltf_memory(source).primitives, {&rig, {}});
+  const auto skinned =
+      focal_test::add_skin(source, focal_test::read_gltf_memory(source).primitives, {&rig, {}});
   auto fewer = roles();
   fewer[5] = "";
   CHECK_THROWS_WITH_AS(add_vrm(skinned, rig.joints, fewer, meta),

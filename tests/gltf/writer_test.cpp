@@ -1,11 +1,10 @@
 // What is written is read back, and refused when it could not be.
-#include "gltf/writer.h"
-
 #include <doctest/doctest.h>
 
 #include <limits>
 
 #include "base/error.h"
+#include "gltf/document.h"
 #include "gltf/gltf_builder.h"
 #include "gltf/preflight.h"
 

@@ -49,7 +49,8 @@ BEGIN {
 function fail(why) { print file ":" line ": " why; failures++ }
 function check(target,   parts, to) {
   if (target ~ /(^|\/)\.\.?\//) { fail("\"" target "\": write includes from the root of src, not by ./ or ../"); return }
-  if (target ~ /^tiny_gltf/ && room != "gltf") fail("tinygltf is seen by src/gltf only")
+  if (target ~ /^tiny_gltf/ && file != "src/gltf/view.h") fail("tinygltf is seen by src/gltf/view.h only")
+  if (target == "gltf/view.h" && room != "gltf") fail("the typed view of a document is seen by src/gltf only")
   if (target ~ /^(unsupported\/)?Eigen\// && file ~ /^(src|capi|include)\/.*\.(h|hpp)$/ && file != "src/base/matrix.h")
     fail("Eigen comes into headers through base/matrix.h only")
   to = room  # "x.h": a file beside this one

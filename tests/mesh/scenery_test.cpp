@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "evaluation_data.h"
-#include "gltf/reader.h"
+#include "gltf/one_call.h"
 #include "mesh/prepare.h"
 #include "sample_humanoid.h"
 #include "surfaces.h"

@@ -6,7 +6,7 @@
 
 #include "descriptors/si_hks.h"
 #include "geodesics/heat_method.h"
-#include "gltf/reader.h"
+#include "gltf/one_call.h"
 #include "operators/operators.h"
 #include "raw_numbers.h"
 #include "spectrum/eigenbasis.h"

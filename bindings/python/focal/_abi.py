@@ -459,6 +459,7 @@ FUNCTIONS = {
     "focal_mesh_write_wrap_gltf": (c_int32, [P(focal_mesh), c_char_p]),
     "focal_mesh_position_of": (c_int32, [P(focal_mesh), P(focal_surface_point), P(c_float)]),
     "focal_mesh_point_at_vertex": (c_int32, [P(focal_mesh), c_uint32, P(focal_surface_point)]),
+    "focal_mesh_closest_point": (c_int32, [P(focal_mesh), P(c_float), P(focal_surface_point)]),
     "focal_descriptor_count": (c_uint32, []),
     "focal_descriptor_name": (c_char_p, [c_int32]),
     "focal_descriptor_dimension": (c_uint32, [c_int32]),

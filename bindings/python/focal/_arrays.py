@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import array
 import ctypes
+import math
 import operator
 from typing import Any, NamedTuple
 
@@ -141,3 +142,43 @@ def copied(pointer: Any, code: str, count: int, width: int) -> Any:
     room = empty(code, count * width)
     ctypes.memmove(room.pointer, pointer, 4 * count * width)
     return result(room.owner, width)
+
+
+def far_origin(vertices: Any) -> tuple[float, float, float] | None:
+    """The centre of points whose 64-bit coordinates would lose more than a hundred-thousandth of their extent in 32
+    bits (earth-centred ones), else None."""
+    if numpy is None:
+        return _far_origin_plain(vertices)
+    given = numpy.asarray(vertices)
+    if given.dtype != numpy.float64 or given.size < 3 or given.size % 3:
+        return None
+    rows = given.reshape(-1, 3)
+    rows = rows[numpy.isfinite(rows).all(axis=1)]
+    if not len(rows):
+        return None
+    return _origin(rows.min(axis=0).tolist(), rows.max(axis=0).tolist())
+
+
+def _far_origin_plain(vertices: Any) -> tuple[float, float, float] | None:
+    try:
+        flat = [float(x) for row in vertices for x in (row if hasattr(row, "__iter__") else (row,))]
+    except (TypeError, ValueError):
+        return None
+    axes = [[x for x in flat[axis::3] if math.isfinite(x)] for axis in range(3)]
+    return _origin([min(a) for a in axes], [max(a) for a in axes]) if all(axes) else None
+
+
+def _origin(low: list[float], high: list[float]) -> tuple[float, float, float] | None:
+    extent = max(h - l for l, h in zip(low, high))
+    farthest = max(max(abs(l), abs(h)) for l, h in zip(low, high))
+    if farthest * 2.0**-24 <= 1e-5 * extent:
+        return None
+    return tuple((l + h) / 2 for l, h in zip(low, high))  # type: ignore[return-value]
+
+
+def moved(rows: Any, offset: tuple[float, float, float]) -> Any:
+    """Rows of three numbers, or flat ones, with the offset added, in 64 bits."""
+    if numpy is not None:
+        return (numpy.asarray(rows, numpy.float64).reshape(-1, 3) + numpy.asarray(offset))
+    flat = [float(x) for row in rows for x in (row if hasattr(row, "__iter__") else (row,))]
+    return [tuple(x + o for x, o in zip(flat[i:i + 3], offset)) for i in range(0, len(flat), 3)]

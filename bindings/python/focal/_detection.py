@@ -10,8 +10,9 @@ from . import _abi
 from ._arrays import empty, result
 from ._correspondence import Correspondence
 from ._handle import Handle, handle_of
+from ._landmark_files import landmarks_csv, landmarks_json, write_text
 from ._library import call, create, library
-from ._mesh import Mesh
+from ._mesh import Mesh, placed
 from ._skeleton import Skeleton, skeleton_params
 from ._task import Progress, Task, run
 from ._values import SurfacePoint, as_dict, choice, floats, new, numbered, path_text, point_of, real
@@ -58,14 +59,14 @@ class Landmark:
         return self.status == _abi.LandmarkStatus.ABSENT
 
 
-def _landmark_of(struct: _abi.focal_landmark) -> Landmark:
+def _landmark_of(struct: _abi.focal_landmark, origin: Any) -> Landmark:
     point, runner_up = point_of(struct.point), point_of(struct.runner_up_point)
     second = None
     if struct.has_runner_up and runner_up:
-        second = Place(runner_up, floats(struct.runner_up_position), struct.runner_up_vertex,
+        second = Place(runner_up, placed(struct.runner_up_position, origin), struct.runner_up_vertex,
                        struct.runner_up_confidence)
     return Landmark(struct.name.decode("utf-8", "replace"), _abi.LandmarkStatus(struct.status), struct.confidence,
-                    struct.expected_error, point, floats(struct.position) if point else None,
+                    struct.expected_error, point, placed(struct.position, origin) if point else None,
                     struct.vertex if point else None, second)
 
 
@@ -78,6 +79,7 @@ class Detection(Handle):
 
     _kind = "detection"
     _joint_names: list[str] = []
+    _origin = (0.0, 0.0, 0.0)  # of the mesh
 
     def _facts(self) -> str:
         found = sum(not landmark.absent for landmark in self)
@@ -97,7 +99,7 @@ class Detection(Handle):
         with self._borrow() as handle:
             for index in range(library().focal_detection_landmark_count(handle)):
                 call("focal_detection_get_landmark", handle, index, ctypes.byref(struct))
-                found.append(_landmark_of(struct))
+                found.append(_landmark_of(struct, self._origin))
         return found
 
     def __iter__(self) -> Iterator[Landmark]:
@@ -210,16 +212,31 @@ class Detection(Handle):
         character = None if animations is None else handle_of(animations, Mesh, "animations")
         params = skeleton_params(self._joint_names, names=names, joint_names=joint_names, animations=character,
                                  rest_pose=rest_pose, symmetric=symmetric, max_influences=max_influences, ground_root=ground_root,
-                                 skeleton_template=skeleton_template, fixed_joints=fixed_joints)
+                                 skeleton_template=skeleton_template, fixed_joints=fixed_joints, origin=self._origin)
         handle = self._handle
-        return run(lambda task_handle: Skeleton._adopt(
-            create("focal_skeleton_create", _abi.focal_skeleton, handle, ctypes.byref(params), task_handle),
-            self._context), task, on_progress)
+
+        def rig(task_handle: Any) -> Skeleton:
+            made = Skeleton._adopt(create("focal_skeleton_create", _abi.focal_skeleton, handle, ctypes.byref(params),
+                                          task_handle), self._context)
+            made._origin = self._origin
+            return made
+
+        return run(rig, task, on_progress)
 
     def write(self, path: str | os.PathLike[str]) -> None:
-        """Writes the mesh's own glTF, nothing lost, with a node for each landmark that is not absent; a mesh that has
-        no file as a plain .glb. Error: INVALID_ARGUMENT (the suffix of the other kind of glTF), IO, FILE_NOT_FOUND."""
-        call("focal_detection_write_gltf", self._handle, path_text(path))
+        """Writes what the end of the path says, in any case. .glb, .gltf, .vrm: the mesh's own glTF, nothing lost, with a
+        node for each landmark that is not absent; a mesh that has no file as a plain .glb. .landmarks.json, .csv: the
+        landmarks alone (`focal convert` makes other programs' files of them). ValueError: another ending. Error:
+        INVALID_ARGUMENT (the suffix of the other kind of glTF), IO, FILE_NOT_FOUND."""
+        name = os.fsdecode(path).lower()
+        if name.endswith((".glb", ".gltf", ".vrm")):
+            call("focal_detection_write_gltf", self._handle, path_text(path))
+        elif name.endswith(".json") and not name.endswith(".mrk.json"):
+            write_text(path, landmarks_json(self.landmarks))
+        elif name.endswith(".csv"):
+            write_text(path, landmarks_csv(self.landmarks))
+        else:
+            raise ValueError(f"{os.fsdecode(path)!r} ends in none of .glb, .gltf, .vrm, .landmarks.json and .csv")
 
     def write_votes(self, path: str | os.PathLike[str]) -> None:
         """Writes a .glb with the vote maps as vertex colours. Error: UNSUPPORTED when votes were not kept."""

@@ -8,14 +8,15 @@ from typing import Any, Iterable, NamedTuple, Union
 
 from . import _abi
 from ._abi import Scenery, Surface
-from ._arrays import block_of, copied, empty, result
+from ._arrays import block_of, copied, empty, far_origin, moved, result
 from ._context import Context, context_or_default
 from ._handle import Handle
 from ._library import call, create, descriptors, distances, last_error, library
 from ._task import Progress, Task, run
 from ._values import SurfacePoint, as_dict, fill, floats, integer, listed, new, path_text, point_of, real
 
-Mark = Union[int, SurfacePoint, None]
+Position = tuple  # x, y, z
+Mark = Union[int, SurfacePoint, Position, None]
 
 NO_VERTEX = _abi.FOCAL_NO_VERTEX
 NO_TRIANGLE = _abi.FOCAL_NO_TRIANGLE
@@ -48,7 +49,8 @@ class Part(NamedTuple):
 class Mesh(Handle):
     """A surface of triangles, ready to be analysed. It never changes.
 
-    vertices  (n, 3) numbers, in units of your own; kept as 32-bit floats
+    vertices  (n, 3) numbers, in units of your own; kept as 32-bit floats. 64-bit ones that lie so far from 0 that they
+              would lose their shape so (earth-centred coordinates) are moved to 0 first, see origin
     faces     (m, 3) vertex numbers from 0, counter-clockwise seen from outside
     weld               merge vertices of exactly equal position. Default True
     drop_degenerate    drop triangles with a repeated corner and repeated triangles. Default True
@@ -72,11 +74,18 @@ class Mesh(Handle):
     """
 
     _kind = "mesh"
+    origin: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    """What was taken from 64-bit vertices before they were rounded; positions in results have it again, but not those in
+    files that are written."""
 
     def __init__(self, vertices: Any, faces: Any, *, weld: bool | None = None, drop_degenerate: bool | None = None,
                  surface: Surface | str | int | None = None, lenient: bool | None = None,
                  keep_scenery: bool | None = None, max_vertices: int | None = None, max_triangles: int | None = None,
                  context: Context | None = None, task: Task | None = None) -> None:
+        block_of(vertices, "vertices", "f", 3)  # refused as they were given
+        far = far_origin(vertices)
+        if far is not None:
+            self.origin, vertices = far, moved(vertices, tuple(-x for x in far))
         desc, running = _described(vertices, faces), context_or_default(context)
         params = fill(new(_abi.focal_mesh_params), weld=weld, drop_degenerate=drop_degenerate,
                       surface=surface, lenient=lenient, keep_scenery=keep_scenery, max_vertices=max_vertices,
@@ -184,7 +193,8 @@ class Mesh(Handle):
     @property
     def vertices(self) -> Any:
         """(vertex_count, 3) floats, a copy."""
-        return self._copied("focal_mesh_positions", "f", self.vertex_count)
+        given = self._copied("focal_mesh_positions", "f", self.vertex_count)
+        return moved(given, self.origin) if any(self.origin) else given
 
     @property
     def faces(self) -> Any:
@@ -222,7 +232,14 @@ class Mesh(Handle):
         """Where a surface point lies. Error with Status.INVALID_LANDMARK when its triangle does not exist."""
         given, position = surface_point(point, "point"), (ctypes.c_float * 3)()
         call("focal_mesh_position_of", self._handle, ctypes.byref(given), position)
-        return tuple(position)  # type: ignore[return-value]
+        return placed(position, self.origin)
+
+    def closest_point(self, position: Any) -> SurfacePoint:
+        """The point of the surface nearest to (x, y, z). Error: INVALID_ARGUMENT (not finite)."""
+        x, y, z = (real(value, "position") - start for value, start in zip(_three(position, "position"), self.origin))
+        out, given = _abi.focal_surface_point(), (ctypes.c_float * 3)(x, y, z)
+        call("focal_mesh_closest_point", self._handle, given, ctypes.byref(out))
+        return point_of(out)  # type: ignore[return-value]
 
     def describe(self, vertices: Any, descriptor: _abi.Descriptor | str | int = "si-hks", *,
                  context: Context | None = None, task: Task | None = None, on_progress: Progress | None = None) -> Any:
@@ -253,7 +270,9 @@ class Mesh(Handle):
         number = integer(seed, "seed", ctypes.c_uint64)
         run(lambda task_handle: call("focal_mesh_symmetry_plane", running._handle, handle, number, task_handle,
                                      ctypes.byref(plane)), task, on_progress)
-        return SymmetryPlane(floats(plane.normal), plane.offset, plane.support)
+        normal = floats(plane.normal)
+        offset = plane.offset + sum(n * start for n, start in zip(normal, self.origin))
+        return SymmetryPlane(normal, offset, plane.support)
 
     def point_at_vertex(self, vertex: int) -> SurfacePoint:
         """The surface point at a vertex. Error with Status.INVALID_LANDMARK when no triangle uses it."""
@@ -301,11 +320,38 @@ def is_number(mark: Any) -> bool:
     return True
 
 
+def _three(value: Any, name: str) -> list[Any]:
+    try:
+        numbers = list(value)
+    except TypeError:
+        raise TypeError(f"{name} must be (x, y, z), not {type(value).__name__}") from None
+    if len(numbers) != 3:
+        raise ValueError(f"{name} must be three numbers, not {len(numbers)}")
+    return numbers
+
+
+def placed(position: Any, origin: tuple[float, float, float]) -> tuple[float, float, float]:
+    """A position of the library in the caller's coordinates."""
+    return tuple(x + start for x, start in zip(position, origin))  # type: ignore[return-value]
+
+
+def _is_position(mark: Any) -> bool:
+    """Three numbers; a SurfacePoint has two members."""
+    try:
+        return len(mark) == 3 and not isinstance(mark, (str, bytes))
+    except TypeError:
+        return False
+
+
 def marked_point(mesh: Mesh, mark: Mark, name: str) -> _abi.focal_surface_point:
-    """From a vertex number, a SurfacePoint, or None for no point."""
+    """From a vertex number, a SurfacePoint, a position (x, y, z), or None for no point."""
     if mark is None:
         return _abi.focal_surface_point(NO_TRIANGLE)
-    return surface_point(mesh.point_at_vertex(mark) if is_number(mark) else mark, name)
+    if is_number(mark):
+        mark = mesh.point_at_vertex(mark)
+    elif _is_position(mark):
+        mark = mesh.closest_point(mark)
+    return surface_point(mark, name)
 
 
 def _described(vertices: Any, faces: Any) -> _abi.focal_mesh_desc:

@@ -158,7 +158,7 @@ class Model(Handle):
         absent_confidence   below it a landmark is absent, 0..found_confidence. Default 0.05
         keep_votes          keep the vote maps. Default True
         seed                same seed, same result. Default 1
-        fixed               {name: vertex number or SurfacePoint}: places that are known, as after a correction by hand.
+        fixed               {name: vertex number, SurfacePoint or (x, y, z)}: places that are known, as after a correction by hand.
                             They stay, and the other landmarks are chosen to suit them
         task, on_progress   as in train()
 
@@ -179,7 +179,7 @@ class Model(Handle):
         def detect(task_handle: Any) -> Detection:
             found = Detection._adopt(create(function, _abi.focal_detection, handle, given, ctypes.byref(params),
                                             task_handle), self._context)
-            found._joint_names = names
+            found._joint_names, found._origin = names, (mesh._mesh if analysed else mesh).origin
             return found
 
         return run(detect, task, on_progress)
@@ -215,8 +215,8 @@ class Model(Handle):
         run(lambda task_handle: call("focal_model_detect_many", handle, given, len(handles), ctypes.byref(params),
                                      task_handle, found), task, on_progress)
         detections = [Detection._adopt(one, self._context) for one in found[:len(handles)]]
-        for one in detections:
-            one._joint_names = names
+        for one, mesh in zip(detections, meshes):
+            one._joint_names, one._origin = names, mesh.origin
         return detections
 
     def _fixed(self, fixed: Mapping[str, Mark], mesh: Mesh) -> Any:

@@ -13,7 +13,7 @@ from ._arrays import Block, block_of, empty, result
 from ._context import Context, context_or_default
 from ._handle import Handle, handle_of
 from ._library import call, create
-from ._mesh import Mesh
+from ._mesh import Mesh, placed
 from ._task import Progress, Task, run
 from ._values import as_dict, choice, fill, floats, integer, new, path_text, text
 
@@ -34,6 +34,7 @@ class Skeleton(Handle):
     """Joints and skin weights, from Detection.rig or Skeleton.bind."""
 
     _kind = "skeleton"
+    _origin = (0.0, 0.0, 0.0)  # of the mesh
 
     def __init__(self) -> None:
         raise TypeError("make a Skeleton with Detection.rig or Skeleton.bind")
@@ -55,10 +56,15 @@ class Skeleton(Handle):
         given, running = handle_of(mesh, Mesh, "mesh"), context_or_default(context)
         params = fill(new(_abi.focal_bind_params), max_influences=max_influences)
         if joints is not None:
-            _put_joints(params, joints)
-        return run(lambda task_handle: cls._adopt(
-            create("focal_skeleton_bind", _abi.focal_skeleton, running._handle, given, ctypes.byref(params),
-                   task_handle), running), task, on_progress)
+            _put_joints(params, joints, mesh.origin)
+
+        def bind(task_handle: Any) -> Skeleton:
+            made = cls._adopt(create("focal_skeleton_bind", _abi.focal_skeleton, running._handle, given,
+                                     ctypes.byref(params), task_handle), running)
+            made._origin = mesh.origin
+            return made
+
+        return run(bind, task, on_progress)
 
     def _facts(self) -> str:
         info = self.info
@@ -73,7 +79,8 @@ class Skeleton(Handle):
             for index in range(count):
                 call("focal_skeleton_get_joint", handle, index, ctypes.byref(struct))
                 found.append(Joint(struct.name.decode("utf-8", "replace"), struct.parent, struct.confidence,
-                                   floats(struct.position), floats(struct.rotation), floats(struct.tip)))
+                                   placed(struct.position, self._origin), floats(struct.rotation),
+                                   placed(struct.tip, self._origin)))
         return found
 
     @property
@@ -122,7 +129,8 @@ class Skeleton(Handle):
         call("focal_skeleton_write_vrm", self._handle, text(json.dumps(_mapping(meta, "meta")), "meta"), path_text(path))
 
 
-def _put_joints(params: _abi.focal_bind_params, joints: Sequence[Joint | Mapping[str, Any]]) -> None:
+def _put_joints(params: _abi.focal_bind_params, joints: Sequence[Joint | Mapping[str, Any]],
+                origin: tuple[float, float, float]) -> None:
     rows = [vars(joint) if isinstance(joint, Joint) else _mapping(joint, "each joint") for joint in joints]
     for row in rows:
         missing = {"name", "parent", "position"} - set(row)
@@ -132,15 +140,16 @@ def _put_joints(params: _abi.focal_bind_params, joints: Sequence[Joint | Mapping
     params.joint_count = len(rows)
     params.joint_parents = (ctypes.c_int32 * max(1, len(rows)))(*[integer(row["parent"], "parent") for row in rows])
     params.joint_moves = (ctypes.c_int32 * max(1, len(rows)))(*[bool(row.get("moves", True)) for row in rows])
-    blocks = [block_of([tuple(row["position"]) for row in rows], "position", "f", 3),
+    start = tuple(-x for x in origin)
+    blocks = [block_of([placed(row["position"], start) for row in rows], "position", "f", 3),
               block_of([tuple(row.get("rotation") or (0, 0, 0, 1)) for row in rows], "rotation", "f", 4),
-              block_of([tuple(row.get("tip") or (math.nan,) * 3) for row in rows], "tip", "f", 3)]
+              block_of([placed(row.get("tip") or (math.nan,) * 3, start) for row in rows], "tip", "f", 3)]
     params.joint_positions, params.joint_rotations, params.joint_tips = (block.pointer for block in blocks)
     params._blocks = blocks  # their memory lives as long as the struct
 
 
 def skeleton_params(known: list[str], *, names: Any, joint_names: Any, skeleton_template: Any, fixed_joints: Any,
-                    **fields: Any) -> _abi.focal_skeleton_params:
+                    origin: tuple[float, float, float], **fields: Any) -> _abi.focal_skeleton_params:
     """known: the model's joint names, which a mapping of names is looked up in."""
     if names is not None:
         names = choice(_abi.BoneNames, names, "names")
@@ -152,7 +161,7 @@ def skeleton_params(known: list[str], *, names: Any, joint_names: Any, skeleton_
         params.animations = animations
     if fixed_joints is not None:
         own = known if params.skeleton_template is None else _template_joints(params.skeleton_template)
-        places = _fixed_places(own, _mapping(fixed_joints, "fixed_joints"))
+        places = _fixed_places(own, _mapping(fixed_joints, "fixed_joints"), origin)
         params.fixed_joints, params.fixed_joint_count = places.pointer, places.rows
         params._fixed_places = places  # its memory lives as long as the struct
     if joint_names is not None:
@@ -170,12 +179,15 @@ def _template_joints(template: bytes) -> list[str]:
         return []
 
 
-def _fixed_places(known: list[str], fixed: Mapping[str, Any]) -> Block:
+def _fixed_places(known: list[str], fixed: Mapping[str, Any], origin: tuple[float, float, float]) -> Block:
     for name in fixed:
         if name not in known:
             raise ValueError(f"{name!r} is no joint of the skeleton: {', '.join(known)}")
     unknown = (math.nan,) * 3
-    places = [tuple(fixed.get(name, unknown)) for name in known]
+    given = block_of([tuple(fixed.get(name, unknown)) for name in known], "fixed_joints", "f", 3)  # refused as they were given
+    if not any(origin):
+        return given
+    places = [placed(fixed.get(name, unknown), tuple(-x for x in origin)) for name in known]
     return block_of(places, "fixed_joints", "f", 3)
 
 

@@ -47,7 +47,7 @@ class TrainingSet(Handle):
     def add(self, mesh: Mesh, marks: Mapping[str, Mark] | Sequence[Mark]) -> None:
         """Adds a mesh with its marks: {name: mark}, or marks in the order of landmark_names.
 
-        A mark is a vertex number, a SurfacePoint, or None: absent on this mesh, as are names that a mapping lacks. The
+        A mark is a vertex number, a SurfacePoint, (x, y, z): the nearest point of the surface, or None: absent on this mesh, as are names that a mapping lacks. The
         set stays as it was on error: ValueError (a name that the set does not know, another number of marks), Error
         with Status.INVALID_LANDMARK (no such vertex or triangle).
         """

@@ -1,6 +1,4 @@
 // Other weights for the skins of a file: joints stay, each primitive's weights are in the numbers of its own skin.
-#include "gltf/skin_numbers.h"
-
 #include "gltf/small_skin.h"
 
 using namespace focal;
@@ -23,6 +21,13 @@ GltfBuilder two_skins() {
   return file;
 }
 
+std::vector<std::byte> replace_weights(std::span<const std::byte> bytes,
+                                       std::span<const GltfPrimitive> primitives, const Rig& rig) {
+  GltfDocument document(copy_of(bytes));
+  document.replace_weights(primitives, rig);
+  return document.bytes();
+}
+
 int32_t number_of(const Rig& rig, const std::string& name) {
   for (size_t j = 0; j < rig.joints.size(); ++j)
     if (rig.joints[j].name == name) return static_cast<int32_t>(j);
@@ -34,8 +39,8 @@ int32_t number_of(const Rig& rig, const std::string& name) {
 TEST_CASE("weights change, nodes, skins and all other data stay") {
   GltfBuilder file = two_skins();
   const auto source = file.glb();
-  const auto primitives = read_gltf_memory(source).primitives;
-  Rig rig = *read_gltf_rig(source, primitives);
+  const auto primitives = focal_test::read_gltf_memory(source).primitives;
+  Rig rig = *focal_test::read_gltf_rig(source, primitives);
   REQUIRE(rig.joints.size() == 3);
   const int32_t root = number_of(rig, "bone"), middle = number_of(rig, "middle"), end = number_of(rig, "end");
   for (VertexInfluences& one : rig.influences) one = {{{end, 0.75F}, {middle, 0.25F}}};
@@ -46,7 +51,7 @@ TEST_CASE("weights change, nodes, skins and all other data stay") {
   CHECK(std::equal(old_bin.begin(), old_bin.begin() + before["buffers"][0]["byteLength"].get<int>(),
                    new_bin.begin()));
 
-  const auto again = read_gltf_rig(written, read_gltf_memory(written).primitives);
+  const auto again = focal_test::read_gltf_rig(written, focal_test::read_gltf_memory(written).primitives);
   REQUIRE(again);
   REQUIRE(again->influences.size() == 8);
   for (size_t v = 0; v < 8; ++v) {
@@ -62,8 +67,8 @@ TEST_CASE("a mesh without a skin and one of scenery keep what they have") {
   GltfBuilder file = two_skins();
   file.root["nodes"].back().erase("skin");
   const auto source = file.glb();
-  auto primitives = read_gltf_memory(source).primitives;
-  Rig rig = *read_gltf_rig(source, primitives);
+  auto primitives = focal_test::read_gltf_memory(source).primitives;
+  Rig rig = *focal_test::read_gltf_rig(source, primitives);
   const auto second = parsed(source)["meshes"][1];
   CHECK(parsed(replace_weights(source, primitives, rig))["meshes"][1] == second);
   primitives[0].is_scenery = true;

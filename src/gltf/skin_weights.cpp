@@ -1,10 +1,14 @@
-#include "gltf/skin_numbers.h"
-
+// Other weights for the skins that a file has: joints, matrices and all else stay.
 #include <algorithm>
 #include <map>
 
+#include "gltf/document_edit.h"
+#include "gltf/skin_data.h"
+
 namespace focal {
 namespace {
+
+bool has_skin(const GltfPrimitive& primitive) { return primitive.skin >= 0 && !primitive.is_scenery; }
 
 // Per joint of the rig its number in a skin, or that of the nearest joint above it that the skin has; -1: it has neither.
 std::vector<int32_t> numbers_in(const OrderedJson& skin, const std::vector<Joint>& joints) {
@@ -37,23 +41,29 @@ void renumber(const GltfPrimitive& primitive, const std::vector<int32_t>& number
   }
 }
 
-}  // namespace
-
-OrderedJson* skin_of(OrderedJson& root, const GltfPrimitive& primitive) {
-  if (primitive.node < 0 || primitive.is_scenery) return nullptr;
-  const OrderedJson* skin = find(root["nodes"][primitive.node], "skin");
-  return skin ? &root["skins"][skin->get<size_t>()] : nullptr;
-}
-
+// Joints of the result: as many as the largest of the skins has, which is what the width of their numbers follows from.
 Rig in_numbers_of_skins(OrderedJson& root, std::span<const GltfPrimitive> primitives, const Rig& rig) {
   Rig result = rig;
   for (const GltfPrimitive& primitive : primitives) {
-    const OrderedJson* skin = skin_of(root, primitive);
-    if (!skin) continue;
-    renumber(primitive, numbers_in(*skin, rig.joints), result);
-    result.joints.resize(std::max(result.joints.size(), (*skin)["joints"].size()));
+    if (!has_skin(primitive)) continue;
+    const OrderedJson& skin = root["skins"][static_cast<size_t>(primitive.skin)];
+    renumber(primitive, numbers_in(skin, rig.joints), result);
+    result.joints.resize(std::max(result.joints.size(), skin["joints"].size()));
   }
   return result;
+}
+
+}  // namespace
+
+void GltfDocument::replace_weights(std::span<const GltfPrimitive> primitives, const Rig& rig) {
+  Edited& edited = this->edited();
+  const Rig of_skins = in_numbers_of_skins(edited.document.root(), primitives, rig);
+  const GltfRig given{&of_skins, {}};
+  SkinData data(edited.document.root(), given, opened_->view, opened_->buffers(), opened_->container);
+  data.begin();
+  for (const GltfPrimitive& primitive : primitives)
+    if (has_skin(primitive)) data.add_weights(primitive);
+  edited.bin = data.finish();
 }
 
 }  // namespace focal

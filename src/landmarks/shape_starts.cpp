@@ -1,0 +1,123 @@
+#include "landmarks/shape_starts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "mesh/closest_point.h"
+#include "mesh/nearest_vertex.h"
+
+namespace focal {
+namespace {
+
+constexpr int32_t compared_points = 400;  // of either shape
+constexpr double most_stretch = 0.4;      // logarithm of what one axis is scaled by, beside the mean of all
+constexpr float mark_radius =
+    0.05f;  // of sqrt(area), beyond the nearest point: within it points say where a mark lies
+
+struct Cloud {
+  MatrixX3 positions;
+  Vector weight;
+
+  Vector3 mean() const { return positions.transpose() * weight / weight.sum(); }
+  Vector3 deviation() const {
+    const Vector3 centre = mean();
+    const MatrixX3 away = positions.rowwise() - centre.transpose();
+    return ((away.array().square().matrix().transpose() * weight) / weight.sum()).array().sqrt();
+  }
+};
+
+// The shape's points with the mean and, within limits, the extents of the other.
+MatrixX3 laid_over(const Cloud& shape, const Vector3& mean, const Vector3& deviation) {
+  Vector3 scale = deviation.cwiseQuotient(shape.deviation().cwiseMax(1e-9)).cwiseMax(1e-9);
+  const double all = std::cbrt(scale.prod());
+  for (double& one : scale)
+    one = all * std::exp(std::clamp(std::log(one / all), -most_stretch, most_stretch));
+  return ((shape.positions.rowwise() - shape.mean().transpose()) * scale.asDiagonal()).rowwise() +
+         mean.transpose();
+}
+
+std::vector<int32_t> first_numbers(Eigen::Index count) {
+  std::vector<int32_t> result(static_cast<size_t>(count));
+  std::iota(result.begin(), result.end(), 0);
+  return result;
+}
+
+// Mean distance of every so many points from the nearest of a tree.
+double mean_distance(const MatrixX3& points, const Vector& weight, const NearestVertex& tree) {
+  const Eigen::Index stride = std::max<Eigen::Index>(points.rows() / compared_points, 1);
+  double sum = 0, total = 0;
+  for (Eigen::Index i = 0; i < points.rows(); i += stride) {
+    sum += weight[i] * std::sqrt(tree.nearest(points.row(i)).second);
+    total += weight[i];
+  }
+  return sum / total;
+}
+
+// Where the points nearest to the mark lie.
+Vector3 place_of_mark(const AtlasShape& shape, float reach, int32_t landmark, const MatrixX3& laid) {
+  const Eigen::VectorXf away =
+      shape.distances.col(landmark).head(laid.rows()).cast<float>() * (reach / target_steps);
+  const float limit = away.minCoeff() + mark_radius;
+  Vector3 sum = Vector3::Zero();
+  double total = 0;
+  for (Eigen::Index i = 0; i < laid.rows(); ++i)
+    if (away[i] < limit) {
+      const double weight = std::pow(1 - away[i] / limit, 2);
+      sum += weight * laid.row(i).transpose(), total += weight;
+    }
+  return sum / total;
+}
+
+std::vector<SurfacePoint> places_by(const AtlasShape& shape, float reach, const MatrixX3& laid,
+                                    const Matrix3& frame, const SurfaceAnalysis& analysis) {
+  std::vector<SurfacePoint> result(shape.marked.size(), SurfacePoint{.triangle = -1});
+  std::vector<SurfaceQuery> queries;
+  for (size_t l = 0; l < shape.marked.size(); ++l)
+    if (shape.marked[l])
+      queries.push_back(
+          {frame.transpose() * place_of_mark(shape, reach, static_cast<int32_t>(l), laid), Vector3::Zero()});
+  const auto points = closest_points(analysis.surface(), queries, 4 * analysis.operators.mean_edge);
+  size_t next = 0;
+  for (size_t l = 0; l < shape.marked.size(); ++l)
+    if (shape.marked[l]) result[l] = points[next++];
+  return result;
+}
+
+}  // namespace
+
+bool can_be_laid_over(const LandmarkModel& model) {
+  return model.params.oriented && std::any_of(model.atlas.begin(), model.atlas.end(),
+                                              [](const AtlasShape& one) { return one.positions.rows() > 0; });
+}
+
+ShapeStarts lay_shapes_over(const LandmarkModel& model, const SurfaceAnalysis& analysis, const Matrix3& frame,
+                            size_t exemplars, size_t starts, const Execution& execution) {
+  ShapeStarts result;
+  for (size_t s = 0; s < model.atlas.size(); ++s)
+    if (model.atlas[s].positions.rows() > 0) result.exemplars.push_back(static_cast<int32_t>(s));
+  const Cloud body{analysis.surface().positions * frame.transpose(), analysis.operators.mass};
+  const NearestVertex tree(body.positions, first_numbers(body.positions.rows()));
+  const Vector3 mean = body.mean(), deviation = body.deviation();
+  std::vector<MatrixX3> laid(model.atlas.size());
+  std::vector<double> apart(model.atlas.size());
+  parallel_for(execution, static_cast<int64_t>(result.exemplars.size()), [&](int64_t i) {
+    const int32_t s = result.exemplars[i];
+    const AtlasShape& shape = model.atlas[s];
+    const Cloud cloud{shape.positions, shape.samples.weight.head(shape.positions.rows()).cast<double>()};
+    laid[s] = laid_over(cloud, mean, deviation);
+    const NearestVertex own(laid[s], first_numbers(laid[s].rows()));
+    apart[s] = mean_distance(laid[s], cloud.weight, tree) + mean_distance(body.positions, body.weight, own);
+  });
+  std::stable_sort(result.exemplars.begin(), result.exemplars.end(),
+                   [&](int32_t a, int32_t b) { return apart[a] < apart[b]; });
+  result.apart = apart[result.exemplars[0]];
+  result.exemplars.resize(std::min(exemplars, result.exemplars.size()));
+  for (size_t i = 0; i < std::min(starts, result.exemplars.size()); ++i) {
+    const int32_t s = result.exemplars[i];
+    result.places.push_back(places_by(model.atlas[s], model.reach, laid[s], frame, analysis));
+  }
+  return result;
+}
+
+}  // namespace focal

@@ -1,0 +1,25 @@
+// Joints of different files find each other by their names: as written, without a prefix, as bones of a humanoid.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace focal {
+
+enum class Spelling { as_written, without_prefix, without_any_prefix, humanoid };
+
+// The names of one file as they are compared. A file in which two joints would get one name keeps its own. humanoid: without prefixes,
+// and what one of the conventions (VRM, Mixamo, Unreal, Rigify, its metarig, Unity, Godot, 3ds Max Biped, Daz, CC and iClone, Quaternius,
+// KayKit) knows by its VRM name: the convention that knows most names of the file.
+std::vector<std::string> spelled(const std::vector<std::string>& names, Spelling spelling);
+
+struct JointMatch {
+  std::vector<int32_t> there;       // per wanted name its place in the other list, or -1
+  std::vector<char> by_convention;  // per wanted name: only as a bone of a humanoid, whose axes may be others
+  std::vector<std::string> missing;
+};
+
+// Each wanted name by the first spelling that finds it. No name is found twice.
+JointMatch match_joints(const std::vector<std::string>& wanted, const std::vector<std::string>& names);
+
+}  // namespace focal
