@@ -18,7 +18,7 @@ USES = {
     "Task": {"cancel": (), "reset": (), "progress": None, "stage": None, "cancelled": None},
     "Mesh": {"info": None, "vertex_count": None, "triangle_count": None, "surface_area": None, "vertices": None,
              "faces": None, "warnings": None, "position_of": ((0, (1, 0, 0)),), "point_at_vertex": (0,),
-             "describe": ([0],), "distances": (0,), "parts": None, "symmetry_plane": (), "write_wrap": ("w.glb",), "left_out": None},
+             "describe": ([0],), "distances": (0,), "parts": None, "closest_point": ((0, 0, 0),), "symmetry_plane": (), "write_wrap": ("w.glb",), "left_out": None},
     "TrainingSet": {"mesh_count": None, "check": (), "add": (mesh(), [0, 1, 2]), "add_rig": (mesh(),)},
     "Model": {"save": ("m.focal",), "to_bytes": (), "info": None, "train_params": None, "landmark_names": None,
               "joint_names": None, "detect": (mesh(),), "analyse": (mesh(),),
@@ -34,7 +34,7 @@ USES = {
                  "write_vrm": ("s.vrm", {"name": "Ann", "authors": ["Bob"]})},
 }
 ALIVE = {"close", "closed", "load", "from_bytes", "from_parts", "load_stock", "bind", "train", "landmark_names",
-         "joint_names"}  # asks nothing of the library's object
+         "joint_names", "origin"}  # asks nothing of the library's object
 
 
 def made():
