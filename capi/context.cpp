@@ -45,7 +45,7 @@ std::shared_ptr<ContextObject> make_context(const focal_context_params& params) 
         adapt_parallel_for(params.parallel_for, params.parallel_for_user_data);
   context->log = params.log;
   context->log_user_data = params.log_user_data;
-  if (params.models_folder) context->models_folder = path_of(params.models_folder);
+  if (params.models_folder) context->models_folder = params.models_folder;
   return context;
 }
 

@@ -23,7 +23,7 @@ struct ContextObject {
   std::shared_ptr<const MemoryBudget> memory_budget;  // null: none
   focal_log_fn log = nullptr;
   void* log_user_data = nullptr;
-  std::filesystem::path models_folder;  // of the host; empty: none
+  std::string models_folder;  // of the host; empty: none
 
   focal_backend used_backend() const;
   const char* backend_reason() const;

@@ -36,7 +36,7 @@ focal_status focal_model_load_stock(const focal_context* context, const char* na
     require(out_model, "out_model");
     require(name, "name");
     auto running = resolve<ContextObject>(context);
-    const auto file = stock_model(running->stock(), name).path;
+    const auto file = path_of(stock_model(running->stock(), name).path.c_str());
     naming_file(file, [&] { *out_model = publish_model(std::move(running), parse_model(read_file(file))); });
   });
 }

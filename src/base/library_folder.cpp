@@ -4,12 +4,12 @@
 
 namespace focal {
 
-std::filesystem::path library_folder() {
+std::string library_folder() {
   Dl_info here{};
   if (!dladdr(reinterpret_cast<const void*>(&library_folder), &here) || !here.dli_fname) return {};
-  std::error_code error;
-  const std::filesystem::path file = std::filesystem::absolute(here.dli_fname, error);
-  return error ? std::filesystem::path{} : file.parent_path();
+  const std::string file = here.dli_fname;
+  const size_t end = file.rfind('/');
+  return end == std::string::npos ? "." : file.substr(0, end);
 }
 
 }  // namespace focal

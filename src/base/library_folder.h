@@ -1,10 +1,10 @@
 // Where this library lies.
 #pragma once
-#include <filesystem>
+#include <string>
 
 namespace focal {
 
 // The folder of the shared library, or of the program that the library is linked into; empty where the system does not report it.
-std::filesystem::path library_folder();
+std::string library_folder();
 
 }  // namespace focal

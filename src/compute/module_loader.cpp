@@ -110,8 +110,8 @@ std::string with_fallback(const Execution& execution, const std::function<void(c
 
 BackendFiles backend_files() {
   BackendFiles files;
-  if (const std::filesystem::path folder = library_folder(); !folder.empty())
-    files.module = (folder / "libfocal_cuda.so").string();
+  if (const std::string folder = library_folder(); !folder.empty())
+    files.module = folder + "/libfocal_cuda.so";
   return files;
 }
 

@@ -1,14 +1,16 @@
 #include "landmarks/stock_models.h"
 
+#include <dirent.h>
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <cstdlib>
+#include <memory>
 
 #include "base/error.h"
 
 namespace focal {
 namespace {
-
-namespace fs = std::filesystem;
 
 #ifdef _WIN32
 constexpr char list_separator = ';';
@@ -16,7 +18,7 @@ constexpr char list_separator = ';';
 constexpr char list_separator = ':';
 #endif
 
-void add_folders_of_variable(std::vector<fs::path>& folders) {
+void add_folders_of_variable(std::vector<std::string>& folders) {
   const char* value = std::getenv("FOCAL_MODELS");
   std::string list = value ? value : "";
   while (!list.empty()) {
@@ -26,38 +28,41 @@ void add_folders_of_variable(std::vector<fs::path>& folders) {
   }
 }
 
-std::string utf8(const fs::path& path) {
-  const auto text = path.u8string();
-  return {text.begin(), text.end()};
+constexpr std::string_view suffix = ".focal";
+
+bool is_file(const std::string& path) {
+  struct stat found;
+  return ::stat(path.c_str(), &found) == 0 && S_ISREG(found.st_mode);
 }
 
-void add_models_in(const fs::path& folder, std::vector<StockModel>& models) {
-  std::error_code error;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
-    std::error_code other;
-    if (entry->path().extension() != ".focal" || !entry->is_regular_file(other)) continue;
-    const std::string name = utf8(entry->path().stem());
+void add_models_in(const std::string& folder, std::vector<StockModel>& models) {
+  const std::unique_ptr<DIR, int (*)(DIR*)> listing(::opendir(folder.c_str()), ::closedir);
+  if (!listing) return;
+  while (const dirent* entry = ::readdir(listing.get())) {
+    const std::string_view file = entry->d_name;
+    if (!file.ends_with(suffix) || file == suffix) continue;
+    const std::string name(file.substr(0, file.size() - suffix.size())), path = folder + "/" + entry->d_name;
     const auto same = [&](const StockModel& one) { return one.name == name; };
-    if (std::none_of(models.begin(), models.end(), same)) models.push_back({name, entry->path()});
+    if (is_file(path) && std::none_of(models.begin(), models.end(), same)) models.push_back({name, path});
   }
 }
 
 }  // namespace
 
-std::vector<fs::path> stock_folders(const fs::path& of_host, const fs::path& library_folder) {
-  std::vector<fs::path> folders;
+std::vector<std::string> stock_folders(const std::string& of_host, const std::string& library_folder) {
+  std::vector<std::string> folders;
   if (!of_host.empty()) folders.push_back(of_host);
   add_folders_of_variable(folders);
   if (library_folder.empty()) return folders;
   // A package that carries the library, a build folder, and what `cmake --install` lays down (lib, or lib/x86_64-linux-gnu).
-  for (const char* beside : {"models", "../models", "../share/focal/models", "../../share/focal/models"})
-    folders.push_back((library_folder / beside).lexically_normal());
+  for (const char* beside : {"/models", "/../models", "/../share/focal/models", "/../../share/focal/models"})
+    folders.push_back(library_folder + beside);
   return folders;
 }
 
-std::vector<StockModel> stock_models_in(std::span<const fs::path> folders) {
+std::vector<StockModel> stock_models_in(std::span<const std::string> folders) {
   std::vector<StockModel> models;
-  for (const fs::path& folder : folders) add_models_in(folder, models);
+  for (const std::string& folder : folders) add_models_in(folder, models);
   std::sort(models.begin(), models.end(),
             [](const StockModel& a, const StockModel& b) { return a.name < b.name; });
   return models;

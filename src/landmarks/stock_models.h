@@ -1,6 +1,7 @@
 // Models that come with focal, or lie in a folder that the user names: files NAME.focal, loaded by name.
+//
+// Texts and system calls, no std::filesystem: its paths and iterators end the process where memory is refused.
 #pragma once
-#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
@@ -8,17 +9,15 @@
 namespace focal {
 
 struct StockModel {
-  std::string name;
-  std::filesystem::path path;
+  std::string name, path;
 };
 
 // Where they are looked for, in order: the host's own folder (empty: none), those that FOCAL_MODELS lists, and those that belong to
 // an installation whose library lies in library_folder (empty: not known).
-std::vector<std::filesystem::path> stock_folders(const std::filesystem::path& of_host,
-                                                 const std::filesystem::path& library_folder);
+std::vector<std::string> stock_folders(const std::string& of_host, const std::string& library_folder);
 
 // By name; of files of one name that of the first folder counts. Folders that are missing or cannot be read hold none.
-std::vector<StockModel> stock_models_in(std::span<const std::filesystem::path> folders);
+std::vector<StockModel> stock_models_in(std::span<const std::string> folders);
 
 // Throws file_not_found, naming those that are there.
 const StockModel& stock_model(std::span<const StockModel> models, const std::string& name);

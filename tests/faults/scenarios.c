@@ -352,6 +352,7 @@ static focal_status run_stock(const fixture* f, uint64_t* digest) {
   }
   focal_model_destroy(model);
   focal_context_destroy(context);
+  remove(fixture_path(f, "stock.focal"));
   return status;
 }
 

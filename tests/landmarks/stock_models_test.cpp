@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 
 #include "base/error.h"
@@ -44,9 +45,9 @@ TEST_CASE("folders: the host's, those of FOCAL_MODELS, those of the installation
   CHECK(folders[1] == "/one");
   CHECK(folders[2] == "/two");
   CHECK(folders[3] == "/opt/focal/lib/models");
-  CHECK(folders[4] == "/opt/focal/models");
-  CHECK(folders[5] == "/opt/focal/share/focal/models");
-  CHECK(folders[6] == "/opt/share/focal/models");
+  CHECK(folders[4] == "/opt/focal/lib/../models");
+  CHECK(folders[5] == "/opt/focal/lib/../share/focal/models");
+  CHECK(folders[6] == "/opt/focal/lib/../../share/focal/models");
   CHECK(stock_folders({}, {}).size() == 2);
 }
 
@@ -57,12 +58,12 @@ TEST_CASE("models: by name, the first folder counts, other files and missing fol
   second.put("hand.focal");
   second.put("README.txt");
   second.put("folder.focal/x");
-  const std::vector<fs::path> folders = {"/no/such/folder", first.path, second.path};
+  const std::vector<std::string> folders = {"/no/such/folder", first.path.string(), second.path.string()};
   const auto models = stock_models_in(folders);
   REQUIRE(models.size() == 2);
   CHECK(models[0].name == "hand");
-  CHECK(models[1].path == first.path / "quadruped.focal");
-  CHECK(stock_model(models, "hand").path == second.path / "hand.focal");
+  CHECK(models[1].path == (first.path / "quadruped.focal").string());
+  CHECK(stock_model(models, "hand").path == (second.path / "hand.focal").string());
 }
 
 TEST_CASE("an unknown name lists those that are there; without any it says how to get some") {
