@@ -69,8 +69,8 @@ TEST_CASE("animals and furniture have none") {
 }
 
 TEST_CASE("names by role: the metarig of Rigify, no name twice, the rest stays") {
-  const auto joints = skeleton({"Hips", "Torso<Hips", "Neck<Torso", "Head<Neck", "Tail<Hips",
-                                "Horn.L<Hips", "UpperLeg.L<Hips", "LowerLeg.L<UpperLeg.L"});
+  const auto joints = skeleton({"Hips", "Torso<Hips", "Neck<Torso", "Head<Neck", "Tail<Hips", "Horn.L<Hips",
+                                "UpperLeg.L<Hips", "LowerLeg.L<UpperLeg.L"});
   size_t known = 0;
   CHECK(names_by_role(joints, BoneNames::rigify_metarig, known) ==
         Names{"spine", "spine.001", "spine.004", "spine.006", "Tail", "Horn.L", "thigh.L", "shin.L"});
