@@ -58,7 +58,7 @@ void add_doctor(CLI::App& app) {
   CLI::App* verb =
       app.add_subcommand("doctor", "Show version, backend and why, threads, stock models and limits");
   const auto options = std::make_shared<CommonOptions>();
-  add_common_options(*verb, *options);
+  add_common_options(*verb, *options, false);
   verb->callback([options] {
     const Context context = make_context(*options);
     const Json report = diagnosis(context.get());

@@ -14,8 +14,7 @@ namespace {
 std::vector<std::string> uris_beside(const nlohmann::json& root) {
   std::vector<std::string> result;
   for (const char* key : {"buffers", "images"}) {
-    const nlohmann::json& elements = list(root, key);
-    for (const nlohmann::json& element : elements.is_array() ? elements : nlohmann::json::array()) {
+    for (const nlohmann::json& element : list(root, key)) {
       const nlohmann::json* uri = element.is_object() ? member(element, "uri") : nullptr;
       if (!uri || !uri->is_string() || is_data_uri(uri->get_ref<const std::string&>())) continue;
       result.push_back(uri->get<std::string>());

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <unordered_map>
 
 #include "landmarks/backend_surface.h"
@@ -27,9 +26,7 @@ MatrixX3 rows_of(const MatrixX3& positions, const std::vector<int32_t>& rows) {
 
 Eigen::VectorXf areas_round(const SurfaceAnalysis& analysis, const std::vector<int32_t>& points) {
   const MatrixX3 positions = rows_of(analysis.surface().positions, points);
-  std::vector<int32_t> all(points.size());
-  std::iota(all.begin(), all.end(), 0);
-  const NearestVertex search(positions, all);
+  const NearestVertex search(positions);
   Eigen::VectorXf area = Eigen::VectorXf::Zero(static_cast<Eigen::Index>(points.size()));
   for (int32_t v = 0; v < analysis.surface().vertex_count(); ++v)
     area[search.nearest(analysis.surface().positions.row(v).transpose()).first] +=

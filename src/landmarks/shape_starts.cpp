@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "mesh/closest_point.h"
 #include "mesh/nearest_vertex.h"
@@ -35,12 +34,6 @@ MatrixX3 laid_over(const Cloud& shape, const Vector3& mean, const Vector3& devia
     one = all * std::exp(std::clamp(std::log(one / all), -most_stretch, most_stretch));
   return ((shape.positions.rowwise() - shape.mean().transpose()) * scale.asDiagonal()).rowwise() +
          mean.transpose();
-}
-
-std::vector<int32_t> first_numbers(Eigen::Index count) {
-  std::vector<int32_t> result(static_cast<size_t>(count));
-  std::iota(result.begin(), result.end(), 0);
-  return result;
 }
 
 // Mean distance of every so many points from the nearest of a tree.
@@ -97,7 +90,7 @@ ShapeStarts lay_shapes_over(const LandmarkModel& model, const SurfaceAnalysis& a
   for (size_t s = 0; s < model.atlas.size(); ++s)
     if (model.atlas[s].positions.rows() > 0) result.exemplars.push_back(static_cast<int32_t>(s));
   const Cloud body{analysis.surface().positions * frame.transpose(), analysis.operators.mass};
-  const NearestVertex tree(body.positions, first_numbers(body.positions.rows()));
+  const NearestVertex tree(body.positions);
   const Vector3 mean = body.mean(), deviation = body.deviation();
   std::vector<MatrixX3> laid(model.atlas.size());
   std::vector<double> apart(model.atlas.size());
@@ -106,7 +99,7 @@ ShapeStarts lay_shapes_over(const LandmarkModel& model, const SurfaceAnalysis& a
     const AtlasShape& shape = model.atlas[s];
     const Cloud cloud{shape.positions, shape.samples.weight.head(shape.positions.rows()).cast<double>()};
     laid[s] = laid_over(cloud, mean, deviation);
-    const NearestVertex own(laid[s], first_numbers(laid[s].rows()));
+    const NearestVertex own(laid[s]);
     apart[s] = mean_distance(laid[s], cloud.weight, tree) + mean_distance(body.positions, body.weight, own);
   });
   std::stable_sort(result.exemplars.begin(), result.exemplars.end(),

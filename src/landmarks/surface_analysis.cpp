@@ -61,13 +61,14 @@ void make_surface_operators(SurfaceAnalysis& analysis, const Bridges& bridges, c
   execution.check_cancelled();
 }
 
-// Operators and metric on the GPU, where it suits.
+// Operators and metric on the GPU, where it suits. Its distances know no gaps between separate parts.
 bool make_backend_solvers(SurfaceAnalysis& analysis, const Execution& execution) {
   const int32_t n = analysis.surface().vertex_count();
   if (!execution.backend || analysis.params.distance != 0 || n < fewest_vertices || n > most_vertices ||
       n < 3 * analysis.params.eigenpair_count)
     return false;
-  make_surface_operators(analysis, bridges_of(*analysis.proxy.coarse), execution);
+  if (analysis.proxy.coarse->components > 1) return false;
+  make_surface_operators(analysis, {}, execution);
   const auto metric = std::make_shared<BackendDistance>(analysis.proxy.coarse, analysis.operators,
                                                         analysis.params.to_the_letter, *execution.backend);
   analysis.metric = metric, analysis.on_backend = metric->surface();

@@ -2,11 +2,18 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 namespace focal {
 
 NearestVertex::NearestVertex(const MatrixX3& positions, std::vector<int32_t> subset)
     : positions_(&positions), order_(std::move(subset)) {
+  build(0, static_cast<int32_t>(order_.size()), 0);
+}
+
+NearestVertex::NearestVertex(const MatrixX3& positions)
+    : positions_(&positions), order_(static_cast<size_t>(positions.rows())) {
+  std::iota(order_.begin(), order_.end(), 0);
   build(0, static_cast<int32_t>(order_.size()), 0);
 }
 

@@ -12,6 +12,7 @@ class NearestVertex {
  public:
   // Keeps a pointer to positions: they must outlive it. Only the numbers in `subset` are searched.
   NearestVertex(const MatrixX3& positions, std::vector<int32_t> subset);
+  explicit NearestVertex(const MatrixX3& positions);  // all of them
   // The number of the nearest point and its squared distance. The set must not be empty.
   std::pair<int32_t, double> nearest(const Vector3& query) const;
   // The same where a nearer one than `best` is there, else `best`; of equally near ones the smaller number.

@@ -85,9 +85,7 @@ std::vector<SurfacePoint> coarse_place_of_vertices(const Proxy& proxy, const Exe
   std::vector<std::vector<int32_t>> around(coarse.vertex_count());
   for (int32_t t = 0; t < coarse.triangle_count(); ++t)
     for (int i = 0; i < 3; ++i) around[coarse.triangles(t, i)].push_back(t);
-  std::vector<int32_t> all(coarse.vertex_count());
-  for (size_t v = 0; v < all.size(); ++v) all[v] = static_cast<int32_t>(v);
-  const NearestVertex search(coarse.positions, all);
+  const NearestVertex search(coarse.positions);
   const auto place_vertex = [&](int64_t v) {
     Vector3 place = proxy.full->surface.positions.row(v);
     if (!proxy.is_full()) place = (place - proxy.coarse->centre) / proxy.coarse->scale;

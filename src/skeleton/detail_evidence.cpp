@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "landmarks/model_parts.h"
 #include "mesh/nearest_vertex.h"
@@ -97,9 +96,8 @@ std::vector<double> found_ratios(const Detection& part, const CharacterRig& rig,
                                  const std::vector<Chain>& chains) {
   const SurfaceAnalysis& analysis = *part.analysis;
   const ToCaller to_caller(analysis);
-  std::vector<int32_t> all(analysis.surface().vertex_count()), vertex;
-  std::iota(all.begin(), all.end(), 0);
-  const NearestVertex search(analysis.surface().positions, all);
+  std::vector<int32_t> vertex;
+  const NearestVertex search(analysis.surface().positions);
   for (const Chain& chain : chains)
     vertex.push_back(search.nearest((end_of(chain, rig) - to_caller.offset) / to_caller.scale).first);
   const RowMatrixf fields = analysis.metric->distances(vertex, Execution().inner());

@@ -140,18 +140,25 @@ std::vector<Table> all_tables() {
   return tables;
 }
 
-Names as_humanoid(Names names) {
+// What a convention calls by its VRM name, with its prefix or without.
+Names as_humanoid(const Names& names, Names bare) {
   static const std::vector<Table> tables = all_tables();
+  const auto bone = [&](const Table& table, size_t i) {
+    const auto found = table.find(plain(names[i]));
+    return found == table.end() ? table.find(plain(bare[i])) : found;
+  };
   const auto known_to = [&](const Table& table) {
-    return std::count_if(names.begin(), names.end(),
-                         [&](const auto& name) { return table.contains(plain(name)); });
+    int64_t known = 0;
+    for (size_t i = 0; i < names.size(); ++i) known += bone(table, i) != table.end();
+    return known;
   };
   const auto best = std::max_element(tables.begin(), tables.end(), [&](const Table& a, const Table& b) {
     return known_to(a) < known_to(b);
   });
-  for (std::string& name : names)
-    if (const auto bone = best->find(plain(name)); bone != best->end()) name = bone->second;
-  return names;
+  Names result = bare;
+  for (size_t i = 0; i < names.size(); ++i)
+    if (const auto found = bone(*best, i); found != best->end()) result[i] = found->second;
+  return result;
 }
 
 Names without(const Names& names, Spelling spelling) {
@@ -166,28 +173,50 @@ Names without(const Names& names, Spelling spelling) {
 std::vector<std::string> spelled(const std::vector<std::string>& names, Spelling spelling) {
   const bool is_humanoid = spelling == Spelling::humanoid;
   Names result = without(names, is_humanoid ? Spelling::without_prefix : spelling);
-  if (is_humanoid) result = as_humanoid(std::move(result));
+  if (is_humanoid) result = as_humanoid(names, std::move(result));
   return std::set<std::string>(result.begin(), result.end()).size() == names.size() ? result : names;
 }
 
-JointMatch match_joints(const std::vector<std::string>& wanted, const std::vector<std::string>& names) {
-  JointMatch match{std::vector<int32_t>(wanted.size(), -1), std::vector<char>(wanted.size(), 0), {}};
-  std::vector<char> taken(names.size(), 0);
-  for (const Spelling spelling :
-       {Spelling::as_written, Spelling::without_prefix, Spelling::without_any_prefix, Spelling::humanoid}) {
-    std::map<std::string, size_t> places;
-    const Names theirs = spelled(names, spelling), ours = spelled(wanted, spelling);
-    for (size_t i = 0; i < theirs.size(); ++i)
-      if (!taken[i]) places.emplace(theirs[i], i);
-    for (size_t w = 0; w < ours.size(); ++w) {
-      if (match.there[w] >= 0) continue;
-      const auto found = places.find(ours[w]);
-      if (found == places.end() || taken[found->second]) continue;
-      taken[found->second] = 1;
-      match.there[w] = static_cast<int32_t>(found->second);
-      match.by_convention[w] = spelling == Spelling::humanoid;
-    }
+namespace {
+
+constexpr std::array spellings{Spelling::as_written, Spelling::without_prefix, Spelling::without_any_prefix,
+                               Spelling::humanoid};
+
+// Finds what is still missing by one spelling. Returns how many it found.
+int32_t find_more(const Names& wanted, const Names& names, Spelling spelling, std::vector<char>& taken,
+                  JointMatch& match) {
+  std::map<std::string, size_t> places;
+  const Names theirs = spelled(names, spelling), ours = spelled(wanted, spelling);
+  for (size_t i = 0; i < theirs.size(); ++i)
+    if (!taken[i]) places.emplace(theirs[i], i);
+  int32_t count = 0;
+  for (size_t w = 0; w < ours.size(); ++w) {
+    const auto found = places.find(ours[w]);
+    if (match.there[w] >= 0 || found == places.end() || taken[found->second]) continue;
+    taken[found->second] = 1, ++count;
+    match.there[w] = static_cast<int32_t>(found->second);
+    match.by_convention[w] = spelling == Spelling::humanoid;
   }
+  return count;
+}
+
+}  // namespace
+
+JointMatch match_joints(const std::vector<std::string>& wanted, const std::vector<std::string>& names) {
+  const JointMatch none{std::vector<int32_t>(wanted.size(), -1), std::vector<char>(wanted.size(), 0), {}};
+  // A "spine" is the hips of one program and the spine of another: the spelling that finds most comes first.
+  Spelling first = Spelling::as_written;
+  int32_t most = 0;
+  for (const Spelling spelling : spellings) {
+    JointMatch trial = none;
+    std::vector<char> taken(names.size(), 0);
+    if (const int32_t count = find_more(wanted, names, spelling, taken, trial); count > most)
+      most = count, first = spelling;
+  }
+  JointMatch match = none;
+  std::vector<char> taken(names.size(), 0);
+  find_more(wanted, names, first, taken, match);
+  for (const Spelling spelling : spellings) find_more(wanted, names, spelling, taken, match);
   for (size_t w = 0; w < wanted.size(); ++w)
     if (match.there[w] < 0) match.missing.push_back(wanted[w]);
   return match;

@@ -19,7 +19,8 @@ struct JointMatch {
   std::vector<std::string> missing;
 };
 
-// Each wanted name by the first spelling that finds it. No name is found twice.
+// By the spelling that finds most wanted names, the plainest of equal ones; then, what is missing, by the others in order. No name is
+// found twice.
 JointMatch match_joints(const std::vector<std::string>& wanted, const std::vector<std::string>& names);
 
 }  // namespace focal

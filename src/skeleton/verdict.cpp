@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "mesh/nearest_vertex.h"
 #include "skeleton/bone_names.h"
@@ -255,9 +254,7 @@ double uncovered(const AtlasShape& teacher, const Rig& rig, const SurfaceAnalysi
   const MatrixX3 copy = skinned(teacher.positions, teacher.rig->influences, motion);
   if (!copy.allFinite()) return std::numeric_limits<double>::infinity();
   const MatrixX3& mesh = analysis.surface().positions;
-  std::vector<int32_t> all(static_cast<size_t>(copy.rows()));
-  std::iota(all.begin(), all.end(), 0);
-  const NearestVertex nearest(copy, std::move(all));
+  const NearestVertex nearest(copy);
   std::vector<double> away;
   for (Eigen::Index v = 0; v < mesh.rows(); ++v)
     away.push_back(std::sqrt(nearest.nearest(mesh.row(v).transpose()).second));

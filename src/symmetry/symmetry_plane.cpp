@@ -241,8 +241,7 @@ struct Answer {
 
 class Reflector {
  public:
-  Reflector(const Cloud& cloud, const Probes& probes)
-      : cloud_(cloud), probes_(probes), tree_(cloud.points, all_of(cloud)) {}
+  Reflector(const Cloud& cloud, const Probes& probes) : cloud_(cloud), probes_(probes), tree_(cloud.points) {}
   int32_t count() const { return static_cast<int32_t>(probes_.cloud_index.size()); }
   Vector3 point(int32_t probe) const { return cloud_.points.row(probes_.cloud_index[probe]); }
 
@@ -261,11 +260,6 @@ class Reflector {
 
  private:
   static constexpr double spacing = 0.02;
-  static std::vector<int32_t> all_of(const Cloud& cloud) {
-    std::vector<int32_t> all(static_cast<size_t>(cloud.points.rows()));
-    std::iota(all.begin(), all.end(), 0);
-    return all;
-  }
   const Cloud& cloud_;
   const Probes& probes_;
   NearestVertex tree_;

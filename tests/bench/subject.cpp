@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "creatures/character.h"
-#include "gltf/one_call.h"
+#include "gltf/document.h"
 #include "landmarks/train.h"
 #include "large_mesh.h"
 #include "mesh/nearest_vertex.h"
@@ -31,7 +31,8 @@ std::optional<fs::path> folder_of(const std::string& name) {
 
 MarkedShape marked_mesh(const fs::path& folder, const std::string& name,
                         const std::vector<std::string>& names) {
-  MarkedShape shape{std::make_shared<PreparedMesh>(prepare(read_gltf(folder / (name + ".glb")).mesh)), {}};
+  MarkedShape shape{
+      std::make_shared<PreparedMesh>(prepare(GltfDocument::open(folder / (name + ".glb")).mesh().mesh)), {}};
   shape.marks.resize(names.size());
   const auto marks = json_of(folder / (name + ".landmarks.json"));
   for (const auto& mark : marks["landmarks"]) {

@@ -199,7 +199,7 @@ TEST_CASE("batch: a verdict a file and their count") {
   const Run run = focal(line + " --json");
   CHECK(run.status == 1);
   const json report = json::parse(run.out);
-  CHECK(keys_of(report) == Keys{"meshes", "done", "kept", "failed", "verdicts"});
+  CHECK(keys_of(report) == Keys{"meshes", "done", "kept", "failed", "skipped", "verdicts"});
   CHECK(report["failed"] == 1);
   CHECK(report["verdicts"]["failed"] == 1);
   CHECK(report["verdicts"]["good"].get<int>() + report["verdicts"]["check"].get<int>() == 1);
@@ -215,8 +215,8 @@ TEST_CASE("batch: a verdict a file and their count") {
 TEST_CASE("train on rigs: what is odd about the teachers is said, with their files") {
   CHECK(humanoids().trained["warnings"] == json::array());
   const ScratchFolder scratch;
-  const std::string sided = edited(scratch, humanoids().teacher(), "sided.glb", "\"left", "\"Left");
-  const std::string other = edited(scratch, sided, "other.glb", "\"right", "\"Right");
+  const std::string sided = edited(scratch, humanoids().teacher(), "sided.glb", "\"left", "\"qrst");
+  const std::string other = edited(scratch, sided, "other.glb", "\"right", "\"uvwxy");
   check_fails("train --rigs " + humanoids().teacher() + " " + other + " -o " + (scratch / "a.focal"),
               "2 (other.glb) share");
   CHECK_FALSE(fs::exists(scratch / "a.focal"));

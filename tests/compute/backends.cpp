@@ -16,6 +16,7 @@
 #include "geodesics/heat_method.h"
 #include "landmarks/backend_surface.h"
 #include "landmarks/leaf_votes.h"
+#include "landmarks/surface_analysis.h"
 #include "surfaces.h"
 #include "vote/peaks.h"
 
@@ -117,6 +118,19 @@ TEST_CASE("heat distances") {
     }
     const RowMatrixf ours = device.distance->distances(sources, {}), theirs = cpu.distances(sources, {});
     tell("heat", of, (ours - theirs).cwiseAbs().maxCoeff() / theirs.maxCoeff(), 1e-5);
+  }
+}
+
+TEST_CASE("separate parts lie a gap apart with a device too") {
+  for (const Subject& of : subjects()) {
+    if (of.mesh->components == 1) continue;
+    const AnalysisParams params{.eigenpair_count = eigenpairs};
+    Execution execution;
+    execution.backend = backend.get();
+    const auto sources = points_at(of.mesh->surface, some_vertices(of, 40));
+    const RowMatrixf ours = analyse_surface(of.mesh, params, execution).metric->distances(sources, {}),
+                     theirs = analyse_surface(of.mesh, params, {}).metric->distances(sources, {});
+    tell("gaps", of, (ours - theirs).cwiseAbs().maxCoeff() / theirs.maxCoeff(), 1e-5);
   }
 }
 

@@ -97,7 +97,7 @@ TEST_CASE("animations, expressions and annotations follow the mesh to its new no
   for (size_t n = 0; n < root["nodes"].size(); ++n)
     if (root["nodes"][n].contains("mesh")) carrier = n;
   REQUIRE(carrier != 0);
-  CHECK(root["nodes"][carrier]["weights"] == json({0}));
+  CHECK(root["nodes"][carrier]["weights"] == json::array({0}));
   CHECK_FALSE(root["nodes"][0].contains("weights"));
   const json& channels = root["animations"][0]["channels"];
   CHECK(channels[0]["target"]["node"] == carrier);

@@ -173,6 +173,18 @@ class Fields(Case):
         self.refused(Status.INVALID_ARGUMENT, "rigged", detection().rig)
 
 
+class Placed(Case):
+    def test_marks_and_fixed_places_may_be_positions(self):
+        given = mesh()
+        place = tuple(float(x) for x in given.vertices[7])
+        found = model().detect(given, fixed={NAMES[0]: place})
+        for axis in range(3):
+            self.assertAlmostEqual(found[NAMES[0]].position[axis], place[axis], 4)
+        for wrong, kind in (((1, 2), TypeError), ((1, 2, "x"), TypeError), ("abc", TypeError)):
+            with self.assertRaises(kind):
+                model().detect(given, fixed={NAMES[0]: wrong})
+
+
 class Written(Case):
     def test_files(self):
         folder = pathlib.Path(self.folder())
@@ -187,6 +199,19 @@ class Written(Case):
         for name in ("votes.glb", "parts.glb"):
             attributes = gltf_json((folder / name).read_bytes())["meshes"][0]["primitives"][0]["attributes"]
             self.assertIn("COLOR_0", attributes)
+        found.write(folder / "MARKED.GLB")
+        self.assertEqual((folder / "MARKED.GLB").read_bytes(), (folder / "marked.glb").read_bytes())
+        found.write(folder / "found.landmarks.json")
+        written = json.loads((folder / "found.landmarks.json").read_text("utf-8"))
+        self.assertEqual((written["format"], written["version"]), ("focal-landmarks", 1))
+        self.assertEqual([one["name"] for one in written["landmarks"]], list(NAMES))
+        self.assertEqual(written["landmarks"][0]["triangle"], found[0].triangle)
+        found.write(folder / "found.csv")
+        lines = (folder / "found.csv").read_text("utf-8").splitlines()
+        self.assertEqual(lines[0], "name,x,y,z")
+        self.assertEqual(len(lines), 1 + sum(not one.absent for one in found))
+        for wrong in ("found.obj", "found", "found.mrk.json"):
+            self.assertRaises(ValueError, found.write, folder / wrong)
         self.refused(Status.INVALID_ARGUMENT, "", found.write, folder / "marked.gltf")
         self.refused(Status.FILE_NOT_FOUND, "", found.write, folder / "none" / "marked.glb")
         for write in (found.write, found.write_votes, found.write_segments):

@@ -252,6 +252,32 @@ class Surface(Case):
             with self.assertRaises(kind):
                 made.point_at_vertex(wrong)
 
+    def test_closest_point(self):
+        made = mesh()
+        place = [float(x) for x in made.vertices[5]]
+        found = made.position_of(made.closest_point([1.001 * x for x in place]))
+        for axis in range(3):
+            self.assertAlmostEqual(found[axis], place[axis], 2)
+        self.refused(Status.INVALID_ARGUMENT, "not finite", made.closest_point, (0, float("nan"), 0))
+        for wrong, kind in ((3, TypeError), ((1, 2), ValueError), (("a", 0, 0), TypeError)):
+            with self.assertRaises(kind):
+                made.closest_point(wrong)
+
+    def test_far_vertices_keep_their_shape(self):
+        vertices, faces, _ = shape()
+        near, far = focal.Mesh(vertices, faces), (-2487002.88, -4684683.67, 3529638.98)
+        moved = [tuple(x + f for x, f in zip(vertex, far)) for vertex in vertices]
+        made = focal.Mesh(numpy.array(moved) if numpy is not None else moved, faces)
+        self.assertEqual(made.info["surface_vertex_count"], near.info["surface_vertex_count"])
+        self.assertAlmostEqual(made.surface_area, near.surface_area, 4)
+        for got, given in zip(rows(made.vertices), moved):
+            for axis in range(3):
+                self.assertAlmostEqual(got[axis], given[axis], 5)
+        place = made.position_of(made.closest_point(moved[5]))
+        for axis in range(3):
+            self.assertAlmostEqual(place[axis], moved[5][axis], 5)
+        self.assertEqual(near.origin, (0, 0, 0))  # what lies near stays as it is
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -44,6 +44,7 @@ class Marks(Case):
                             (ValueError, [-1, 0, 0]), (ValueError, [2**32, 0, 0]), (TypeError, "abc"),
                             (TypeError, None), (TypeError, 3), (TypeError, ["a", 0, 0]), (TypeError, [0.5, 0, 0]),
                             (TypeError, [(1, "a", 3), 0, 0]), (ValueError, [(0, (1, 0)), 0, 0]),
+                            (TypeError, [(1, 2), 0, 0]), (ValueError, [(0, (1, 0)), 0, 0]),
                             (TypeError, [("a", (1, 0, 0)), 0, 0]), (TypeError, [(0, (None, 0, 0)), 0, 0])):
             with self.assertRaises(kind, msg=str(marks)):
                 self.set.add(self.mesh, marks)

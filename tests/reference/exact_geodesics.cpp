@@ -2,12 +2,12 @@
 #include <iostream>
 
 #include "cgal_geodesics.h"
-#include "gltf/one_call.h"
+#include "gltf/document.h"
 #include "raw_numbers.h"
 
 int main(int argc, char** argv) try {
   if (argc < 4) throw std::runtime_error("usage: exact_geodesics MESH.glb FILE VERTEX...");
-  const auto mesh = focal_test::to_cgal(focal_test::read_gltf(argv[1]).mesh);
+  const auto mesh = focal_test::to_cgal(focal::GltfDocument::open(argv[1]).mesh().mesh);
   std::vector<double> distances;
   for (const int32_t source : focal_test::vertices_from(3, argc, argv)) {
     const auto row = focal_test::cgal_distances(mesh, source);

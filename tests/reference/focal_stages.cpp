@@ -6,7 +6,7 @@
 
 #include "descriptors/si_hks.h"
 #include "geodesics/heat_method.h"
-#include "gltf/one_call.h"
+#include "gltf/document.h"
 #include "operators/operators.h"
 #include "raw_numbers.h"
 #include "spectrum/eigenbasis.h"
@@ -43,7 +43,7 @@ void write_stages(const TriangleMesh& mesh, const std::filesystem::path& folder,
 
 int main(int argc, char** argv) try {
   if (argc < 4) throw std::runtime_error("usage: focal_stages MESH.glb FOLDER VERTEX...");
-  write_stages(read_gltf(argv[1]).mesh, argv[2], focal_test::vertices_from(3, argc, argv));
+  write_stages(GltfDocument::open(argv[1]).mesh().mesh, argv[2], focal_test::vertices_from(3, argc, argv));
   return 0;
 } catch (const std::exception& error) {
   std::cerr << "focal_stages: " << error.what() << '\n';

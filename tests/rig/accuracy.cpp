@@ -12,6 +12,7 @@
 #include <set>
 #include <sstream>
 
+#include "base/atomic_file.h"
 #include "base/random.h"
 #include "base/stopwatch.h"
 #include "correspondence/segmentation.h"
@@ -178,7 +179,8 @@ Matrix3 rest_axes(const Truth& truth, const std::string& name) {
 
 Errors judge(const std::shared_ptr<const LandmarkModel>& model, const Path& set, const std::string& name) {
   const Truth truth = read_truth(set, name);
-  const auto mesh = std::make_shared<const PreparedMesh>(prepare(read_gltf(set / (name + ".glb")).mesh));
+  const auto mesh =
+      std::make_shared<const PreparedMesh>(prepare(GltfDocument::open(set / (name + ".glb")).mesh().mesh));
   Stopwatch watch;
   const Detection detection = detect(model, mesh, DetectParams{}, execution);
   const CharacterRig found = transfer_rig(detection, execution);

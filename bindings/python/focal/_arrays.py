@@ -161,6 +161,13 @@ def far_origin(vertices: Any) -> tuple[float, float, float] | None:
 
 def _far_origin_plain(vertices: Any) -> tuple[float, float, float] | None:
     try:
+        view = memoryview(vertices)
+        if view.format.lstrip("@=<") != "d":
+            return None
+        vertices = view.tolist()
+    except TypeError:
+        pass  # a sequence
+    try:
         flat = [float(x) for row in vertices for x in (row if hasattr(row, "__iter__") else (row,))]
     except (TypeError, ValueError):
         return None
