@@ -131,7 +131,8 @@ void print_text(const Json& report) {
 
 void info(const Options& options) {
   const Context context = make_context(options);
-  const Json report = is_mesh(options.file)
+  const bool shows_mesh = is_mesh(options.file) && !is_stock_model(context.get(), options.file);
+  const Json report = shows_mesh
                           ? mesh_json(load_mesh(context.get(), options.file, options).get(), options.file)
                           : model_json(load_model(context.get(), options.file).get(), options.file);
   if (options.json) print_json(report);

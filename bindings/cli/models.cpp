@@ -13,8 +13,11 @@
 namespace focal_cli {
 namespace {
 
-bool is_plain_name(const std::string& text) {
-  return text.find_first_of("/\\") == std::string::npos && !text.ends_with(".focal");
+// A plain name, and no file.
+bool may_be_stock_model(const std::string& text) {
+  std::error_code error;
+  return text.find_first_of("/\\") == std::string::npos && !text.ends_with(".focal") &&
+         !std::filesystem::exists(text, error);
 }
 
 Json description_of(const focal_context* context, const StockModel& stock) {
@@ -81,13 +84,16 @@ std::string model_hint(const focal_context* context) {
   return "";
 }
 
-Model load_model(const focal_context* context, const std::string& path_or_name) {
-  std::error_code error;
-  if (std::filesystem::exists(path_or_name, error) || !is_plain_name(path_or_name))
-    return owned<Model>(focal_model_load, context, path_or_name.c_str());
+bool is_stock_model(const focal_context* context, const std::string& path_or_name) {
+  if (!may_be_stock_model(path_or_name)) return false;
   const auto all = stock_models(context);
-  if (std::any_of(all.begin(), all.end(), [&](const StockModel& one) { return one.name == path_or_name; }))
+  return std::any_of(all.begin(), all.end(), [&](const StockModel& one) { return one.name == path_or_name; });
+}
+
+Model load_model(const focal_context* context, const std::string& path_or_name) {
+  if (is_stock_model(context, path_or_name))
     return owned<Model>(focal_model_load_stock, context, path_or_name.c_str());
+  if (!may_be_stock_model(path_or_name)) return owned<Model>(focal_model_load, context, path_or_name.c_str());
   throw CommandError("there is no model file or stock model '" + path_or_name + "'", model_hint(context));
 }
 

@@ -8,6 +8,7 @@
 namespace focal_cli {
 
 // A file of that path counts before a stock model of that name.
+bool is_stock_model(const focal_context* context, const std::string& path_or_name);
 Model load_model(const focal_context* context, const std::string& path_or_name);
 
 struct StockModel {

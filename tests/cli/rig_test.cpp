@@ -239,7 +239,6 @@ TEST_CASE("info and convert: what is analysed, and the wrap to look at") {
   CHECK(words.out.find("closed surface round") != std::string::npos);
   check_fails("convert " + mesh + " " + (scratch / "wrap.gltf"), ".glb");
 }
-#endif
 
 TEST_CASE("rig: weights only, the joints of the file stay to the bit") {
   const ScratchFolder scratch;
@@ -306,5 +305,7 @@ TEST_CASE("stock models: used by name, listed, and named in the first error") {
   wrong = focal("rig " + humanoids().mesh() + " -o " + out, variable);
   CHECK(wrong.status == 2);
   CHECK(wrong.err.find("tiny") != std::string::npos);
+  CHECK(focal("info dragon", variable).err.find("cannot open 'dragon'") != std::string::npos);
   check_fails("rig no/such.focal " + humanoids().mesh() + " -o " + out, "no/such.focal");
 }
+#endif
