@@ -1,123 +1,28 @@
 #include "skeleton/bone_roles.h"
 
 #include <algorithm>
-#include <cctype>
-#include <map>
 #include <optional>
 #include <set>
 
-#include "skeleton/bone_names.h"
+#include "skeleton/joint_match.h"
 
 namespace focal {
 namespace {
 
-using Words = std::vector<std::string>;
-
-bool is_upper(char c) { return std::isupper(static_cast<unsigned char>(c)); }
-bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)); }
-
-// Runs of letters, cut where a small letter meets a capital, in small letters; a prefix before the last colon is left out.
-Words words_of(const std::string& name) {
-  const std::string text = name.substr(name.rfind(':') == std::string::npos ? 0 : name.rfind(':') + 1);
-  Words words;
-  for (size_t i = 0; i < text.size(); ++i) {
-    if (!is_letter(text[i])) continue;
-    const bool starts =
-        i == 0 || !is_letter(text[i - 1]) || (is_upper(text[i]) && !is_upper(text[i - 1])) ||
-        (is_upper(text[i]) && i + 1 < text.size() && is_letter(text[i + 1]) && !is_upper(text[i + 1]));
-    if (starts) words.emplace_back();
-    words.back() += static_cast<char>(std::tolower(static_cast<unsigned char>(text[i])));
-  }
-  return words;
-}
-
-// A side at the head or the end of a word that is written as one: leftarm, armleft.
-void split_sides(Words& words) {
-  Words result;
-  for (const std::string& word : words) {
-    bool found = false;
-    for (const std::string side : {"left", "right"}) {
-      if (found || word.size() <= side.size()) continue;
-      if (word.starts_with(side))
-        result.insert(result.end(), {side, word.substr(side.size())}), found = true;
-      else if (word.ends_with(side))
-        result.insert(result.end(), {word.substr(0, word.size() - side.size()), side}), found = true;
-    }
-    if (!found) result.push_back(word);
-  }
-  words = std::move(result);
-}
-
-// The kind of a joint: a word for what it is, without its side.
-struct Kind {
-  std::string what;  // empty: none that is known
-  char side = 0;     // 'l', 'r' or none
-};
-
-// One of these, and the joint is a helper, a control, or of something else than a humanoid's body.
-const std::set<std::string>& foreign_words() {
-  static const std::set<std::string> words = {
-      "twist",  "roll",  "ik",     "fk",    "pole",  "target", "ctrl",  "control", "end",       "tip",
-      "helper", "nub",   "prop",   "hair",  "skirt", "cape",   "cloth", "tail",    "wing",      "ear",
-      "weapon", "front", "hind",   "rear",  "back",  "brow",   "lid",   "pocket",  "sleeve",    "breast",
-      "cheek",  "lip",   "tongue", "teeth", "heel",  "socket", "share", "bend",    "corrective"};
-  return words;
-}
-
-const std::map<std::string, std::string>& kinds() {
-  static const std::map<std::string, std::string> all = {
-      {"hips", "hips"},         {"hip", "hips"},          {"pelvis", "hips"},       {"spine", "spine"},
-      {"chest", "spine"},       {"upperchest", "spine"},  {"torso", "spine"},       {"abdomen", "spine"},
-      {"waist", "spine"},       {"ribcage", "spine"},     {"neck", "neck"},         {"head", "head"},
-      {"jaw", "jaw"},           {"eye", "Eye"},           {"shoulder", "shoulder"}, {"clavicle", "Shoulder"},
-      {"collar", "Shoulder"},   {"upperarm", "UpperArm"}, {"uparm", "UpperArm"},    {"arm", "arm"},
-      {"lowerarm", "LowerArm"}, {"forearm", "LowerArm"},  {"elbow", "LowerArm"},    {"hand", "Hand"},
-      {"wrist", "Hand"},        {"upperleg", "UpperLeg"}, {"upleg", "UpperLeg"},    {"thigh", "UpperLeg"},
-      {"leg", "leg"},           {"lowerleg", "LowerLeg"}, {"calf", "LowerLeg"},     {"shin", "LowerLeg"},
-      {"knee", "LowerLeg"},     {"foot", "Foot"},         {"ankle", "Foot"},        {"toe", "Toes"},
-      {"toes", "Toes"},         {"toebase", "Toes"},      {"ball", "Toes"},         {"thumb", "Thumb"},
-      {"index", "Index"},       {"middle", "Middle"},     {"ring", "Ring"},         {"pinky", "Little"},
-      {"little", "Little"},     {"armupper", "UpperArm"}, {"armlower", "LowerArm"}, {"legupper", "UpperLeg"},
-      {"leglower", "LowerLeg"}};
-  return all;
-}
-
-// Words that say nothing of the role: who wrote the file, and what every bone is.
-const std::set<std::string>& empty_words() {
-  static const std::set<std::string> words = {
-      "mixamorig", "bip", "valvebiped", "def",      "org",       "bone", "joint",   "jnt",    "sk",
-      "b",         "c",   "j",          "armature", "character", "rig",  "stretch", "finger", "f"};
-  return words;
-}
-
-Kind kind_of(const std::string& name) {
-  Words words = words_of(name);
-  split_sides(words);
-  Kind kind;
-  std::string rest;
-  for (const std::string& word : words) {
-    if (foreign_words().contains(word)) return {};
-    if (word == "l" || word == "left")
-      kind.side = 'l';
-    else if (word == "r" || word == "right")
-      kind.side = 'r';
-    else if (word.size() > 1 && !empty_words().contains(word))
-      rest += word;
-  }
-  if (rest.starts_with("hand") && rest.size() > 4) rest.erase(0, 4);  // LeftHandIndex1
-  const auto found = kinds().find(rest);
-  if (found != kinds().end()) kind.what = found->second;
-  return kind;
-}
-
 class Roles {
  public:
   explicit Roles(const std::vector<Joint>& joints) : joints_(joints), role_(joints.size()) {
-    for (const Joint& joint : joints) kind_.push_back(kind_of(joint.name));
+    std::vector<std::string> names;
+    for (const Joint& joint : joints) names.push_back(joint.name), kind_.push_back(bone_kind(joint.name));
+    in_convention_ = humanoid_names(names, spelled(names, Spelling::without_prefix));
   }
 
   std::vector<std::string> find() {
+    const bool at_its_word = has_hidden_hips();
+    // Daz has a hip and a pelvis.
+    take_convention([&](const BoneKind& kind) { return at_its_word || is_hips(kind); });
     take_known_names();
+    take_convention([](const BoneKind& kind) { return kind.what.empty(); });
     for (size_t j = 0; j < joints_.size(); ++j) settle_limb(j);
     take_plain("hips"), take_plain("head"), take_plain("neck"), take_plain("jaw");
     settle_spine();
@@ -130,6 +35,8 @@ class Roles {
   }
 
  private:
+  static bool is_hips(const BoneKind& kind) { return kind.what == "hips" && kind.side == 0; }
+
   static std::string sided(char side, const std::string& what) {
     return (side == 'l' ? "left" : "right") + what;
   }
@@ -138,6 +45,20 @@ class Roles {
     if (!role_[joint].empty() || !taken_.insert(role).second) return false;
     role_[joint] = role;
     return true;
+  }
+
+  // Whether the hips have a name that only the convention of all the names explains: Rigify's metarig calls them `spine`. A convention
+  // has no names for the legs of an animal.
+  bool has_hidden_hips() const {
+    for (const BoneKind& kind : kind_)
+      if (is_hips(kind) || kind.of_quadruped) return false;
+    return std::find(in_convention_.begin(), in_convention_.end(), "hips") != in_convention_.end();
+  }
+
+  template <class Wanted>
+  void take_convention(const Wanted& wanted) {
+    for (size_t j = 0; j < joints_.size(); ++j)
+      if (!in_convention_[j].empty() && wanted(kind_[j])) give(j, in_convention_[j]);
   }
 
   // But for those that mean another bone in other skeletons: LeftLeg, LeftArm, Shoulder.
@@ -175,7 +96,7 @@ class Roles {
 
   // "arm" and "leg" are the upper or the lower bone, by what hangs above; "shoulder" is the upper arm where there is no other.
   void settle_limb(size_t j) {
-    Kind& kind = kind_[j];
+    BoneKind& kind = kind_[j];
     if (kind.side == 0) return;
     if (kind.what == "arm") kind.what = has_above(j, sided(kind.side, "UpperArm")) ? "LowerArm" : "UpperArm";
     if (kind.what == "leg") kind.what = has_above(j, sided(kind.side, "UpperLeg")) ? "LowerLeg" : "UpperLeg";
@@ -215,8 +136,8 @@ class Roles {
   }
 
   const std::vector<Joint>& joints_;
-  std::vector<Kind> kind_;
-  std::vector<std::string> role_;
+  std::vector<BoneKind> kind_;
+  std::vector<std::string> in_convention_, role_;
   std::set<std::string> taken_;
 };
 

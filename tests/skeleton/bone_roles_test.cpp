@@ -62,9 +62,32 @@ TEST_CASE("spines and fingers by order; twist bones, hair and controls have no r
               "rightLittleProximal"});
 }
 
+TEST_CASE("names that are no words for the bone: the convention of the file explains them") {
+  CHECK(roles({"spine", "spine.001<spine", "spine.002<spine.001", "spine.004<spine.002",
+               "spine.005<spine.004", "spine.006<spine.005", "shoulder.L<spine.002", "upper_arm.L<shoulder.L",
+               "pelvis.L<spine", "thigh.L<spine", "shin.L<thigh.L"}) ==
+        Names{"hips", "spine", "chest", "neck", "", "head", "leftShoulder", "leftUpperArm", "",
+              "leftUpperLeg", "leftLowerLeg"});
+  CHECK(roles({"hip", "pelvis<hip", "lThighBend<pelvis", "lThighTwist<lThighBend", "lShin<lThighTwist",
+               "abdomenLower<hip", "abdomenUpper<abdomenLower", "neckLower<abdomenUpper", "head<neckLower",
+               "rShldrBend<abdomenUpper", "rForearmBend<rShldrBend"}) ==
+        Names{"hips", "", "leftUpperLeg", "", "leftLowerLeg", "spine", "chest", "neck", "head",
+              "rightUpperArm", "rightLowerArm"});
+  CHECK(roles({"CC_Base_BoneRoot", "CC_Base_Hip<CC_Base_BoneRoot", "CC_Base_Waist<CC_Base_Hip",
+               "CC_Base_Spine01<CC_Base_Waist", "CC_Base_NeckTwist01<CC_Base_Spine01",
+               "CC_Base_Head<CC_Base_NeckTwist01", "CC_Base_L_Thigh<CC_Base_Hip"}) ==
+        Names{"", "hips", "spine", "chest", "neck", "head", "leftUpperLeg"});
+  CHECK(roles({"Bip001 Pelvis", "Bip001 Head<Bip001 Pelvis", "Bip001 L UpperArm<Bip001 Pelvis",
+               "Bip001 L Hand<Bip001 L UpperArm", "Bip001 L Finger0<Bip001 L Hand",
+               "Bip001 L Finger11<Bip001 L Hand"}) ==
+        Names{"hips", "head", "leftUpperArm", "leftHand", "leftThumbMetacarpal", "leftIndexIntermediate"});
+}
+
 TEST_CASE("animals and furniture have none") {
   CHECK(roles({"hips", "spine<hips", "neck<spine", "head<neck", "leftFrontUpperLeg<spine",
                "leftHindUpperLeg<hips", "tail1<hips"}) == Names(7, ""));
+  CHECK(roles({"spine", "spine.001<spine", "spine.004<spine.001", "spine.006<spine.004", "thigh.L<spine",
+               "front_thigh.L<spine.001"}) == Names(6, ""));
   CHECK(roles({"lid", "drawer"}) == Names(2, ""));
 }
 
