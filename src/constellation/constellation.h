@@ -54,8 +54,9 @@ struct ConstellationCandidates {
 
 struct ConstellationParams {
   double unary_weight = 5, pair_weight = 4, handedness_weight = 2;
-  double certain_weight = 4;  // of distances to a landmark that is certain, against those between others
-  double absent_cost = 7;     // of leaving a landmark out, against all that a place costs
+  double certain_weight =
+      4;  // of distances to a landmark that is certain, against those between others: docs/accuracy.md
+  double absent_cost = 7;  // of leaving a landmark out, against all that a place costs
   int32_t restarts = 32;
   double energy_margin = 12;  // of the other choices above the best
   int32_t most_choices = 4;

@@ -15,10 +15,10 @@ constexpr float border = 0.02f;  // within it vertices count less and less, so t
 // Chosen by cross-validation on training splits of faust5k, teddy, ant, human07 and lion:
 constexpr double vote_weight = 10;  // against the mean squared deviation of the distances
 constexpr double deviation_clip = 8;
-constexpr double fixed_weight =
-    4;                         // of distances to a known place, against those to others; see docs/accuracy.md
-constexpr int32_t rounds = 2;  // the others have moved too
+constexpr int32_t rounds = 2;        // the others have moved too
 constexpr double temperature = 0.3;  // of the mean place
+// Of distances to a known place, against those to others. Two folds of the training splits of ant, teddy and human07: docs/accuracy.md.
+constexpr double fixed_weight = 4;
 
 // Cost of placing one landmark at each vertex near its present place.
 struct Region {

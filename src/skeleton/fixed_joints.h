@@ -26,7 +26,7 @@ void follow(const FixedJoints& fixed, double reach, const MovableSkeleton& skele
 // The same on a finished rig, in the caller's coordinates. Fixed joints have confidence 1 then.
 void follow(const FixedJoints& fixed, double reach, CharacterRig& character);
 
-inline constexpr double fixed_joint_reach =
-    0.15;  // of sqrt(area); chosen on left-out characters, see docs/accuracy.md
+// Of sqrt(area). On left-out bodies of makehuman 0.15 and 0.2 help the other joints most, see docs/accuracy.md.
+inline constexpr double fixed_joint_reach = 0.15;
 
 }  // namespace focal
