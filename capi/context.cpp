@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "arguments.h"
+#include "base/library_folder.h"
 #include "boundary.h"
 #include "structs.h"
 
@@ -43,6 +45,7 @@ std::shared_ptr<ContextObject> make_context(const focal_context_params& params) 
         adapt_parallel_for(params.parallel_for, params.parallel_for_user_data);
   context->log = params.log;
   context->log_user_data = params.log_user_data;
+  if (params.models_folder) context->models_folder = params.models_folder;
   return context;
 }
 
@@ -54,8 +57,9 @@ struct StructTraits<focal_context_params> {
   static constexpr size_t first_size = 48;
   static focal_context_params defaults() { return {}; }
 };
-static_assert(sizeof(void*) != 8 || (sizeof(focal_context_params) == 56 &&
-                                     offsetof(focal_context_params, memory_budget_bytes) == 48));
+static_assert(sizeof(void*) != 8 || (sizeof(focal_context_params) == 64 &&
+                                     offsetof(focal_context_params, memory_budget_bytes) == 48 &&
+                                     offsetof(focal_context_params, models_folder) == 56));
 
 focal_backend ContextObject::used_backend() const {
   return backend && backend->works() ? FOCAL_BACKEND_CUDA : FOCAL_BACKEND_CPU;
@@ -67,6 +71,10 @@ Execution ContextObject::execution_with(Task* task) const {
   Execution with_task = execution;
   with_task.task = task;
   return with_task;
+}
+
+const std::vector<StockModel>& ContextObject::stock() const {
+  return stock_.get([&] { return stock_models_in(stock_folders(models_folder, library_folder())); });
 }
 
 void ContextObject::report(focal_log_level level, const std::string& message) const {

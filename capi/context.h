@@ -4,10 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "base/lazy.h"
 #include "base/memory_budget.h"
 #include "base/parallel.h"
 #include "compute/module_loader.h"
 #include "handles.h"
+#include "landmarks/stock_models.h"
 
 namespace focal {
 
@@ -21,12 +23,18 @@ struct ContextObject {
   std::shared_ptr<const MemoryBudget> memory_budget;  // null: none
   focal_log_fn log = nullptr;
   void* log_user_data = nullptr;
+  std::string models_folder;  // of the host; empty: none
 
   focal_backend used_backend() const;
   const char* backend_reason() const;
   Execution execution_with(Task* task) const;
   void report(focal_log_level level, const std::string& message) const;
   void report_warnings(const std::vector<std::string>& warnings) const;
+  // Looked up once.
+  const std::vector<StockModel>& stock() const;
+
+ private:
+  Lazy<std::vector<StockModel>> stock_;
 };
 
 }  // namespace focal

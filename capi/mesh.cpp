@@ -1,5 +1,6 @@
 #include "mesh.h"
 
+#include <algorithm>
 #include <limits>
 #include <span>
 #include <utility>
@@ -87,7 +88,7 @@ GltfReadParams read_params(const focal_mesh_params& params) {
   return read;
 }
 
-void check_desc(const focal_mesh_desc& desc, const focal_mesh_params& params) {
+void check_desc(const focal_mesh_desc& desc) {
   require(desc.positions, "focal_mesh_desc.positions");
   require(desc.indices, "focal_mesh_desc.indices");
   if (desc.position_stride != 0 && (desc.position_stride < 12 || desc.position_stride % 4 != 0))
@@ -98,29 +99,66 @@ void check_desc(const focal_mesh_desc& desc, const focal_mesh_params& params) {
   if (desc.index_count % 3 != 0)
     throw Error(Status::invalid_argument, "focal_mesh_desc.index_count is not a multiple of 3",
                 "give three indices for each triangle");
-  if (desc.vertex_count > params.max_vertices || desc.index_count / 3 > params.max_triangles)
+}
+
+void check_size(std::span<const MeshPart> ranges, const focal_mesh_params& params) {
+  const auto is_too_large = [&](const MeshPart& one) {  // each number first: their sum must not wrap round
+    return one.vertex_count > params.max_vertices || one.triangle_count > params.max_triangles ||
+           one.first_vertex + one.vertex_count > params.max_vertices ||
+           one.first_triangle + one.triangle_count > params.max_triangles;
+  };
+  if (std::any_of(ranges.begin(), ranges.end(), is_too_large))
     throw Error(Status::unsupported, "the mesh has more vertices or triangles than allowed",
                 "raise focal_mesh_params.max_vertices and max_triangles");
 }
 
-// lenient: an index out of range becomes -1, which prepare leaves out.
-TriangleMesh mesh_of(const focal_mesh_desc& desc, bool lenient) {
-  TriangleMesh mesh;
+// Appends a part. lenient: an index out of range becomes -1, which prepare leaves out.
+void add_part(const focal_mesh_desc& desc, const MeshPart& part, bool lenient, TriangleMesh& mesh) {
   const size_t stride = desc.position_stride ? desc.position_stride / sizeof(float) : 3;
-  mesh.positions.resize(static_cast<Eigen::Index>(desc.vertex_count), 3);
-  for (Eigen::Index v = 0; v < mesh.positions.rows(); ++v)
-    for (int i = 0; i < 3; ++i) mesh.positions(v, i) = desc.positions[static_cast<size_t>(v) * stride + i];
-  mesh.triangles.resize(static_cast<Eigen::Index>(desc.index_count / 3), 3);
-  for (Eigen::Index i = 0; i < mesh.triangles.size(); ++i) {
+  for (uint64_t v = 0; v < desc.vertex_count; ++v)
+    for (int i = 0; i < 3; ++i)
+      mesh.positions(static_cast<Eigen::Index>(part.first_vertex + v), i) =
+          desc.positions[static_cast<size_t>(v) * stride + i];
+  for (uint64_t i = 0; i < desc.index_count; ++i) {
     const bool exists = desc.indices[i] < desc.vertex_count;
     if (!exists && !lenient)
       throw Error(Status::invalid_mesh,
                   "triangle " + std::to_string(i / 3) + " names vertex " + std::to_string(desc.indices[i]) +
                       ", the mesh has " + std::to_string(desc.vertex_count),
                   "indices run from 0 to vertex_count - 1");
-    mesh.triangles.data()[i] = exists ? static_cast<int32_t>(desc.indices[i]) : -1;
+    mesh.triangles.data()[3 * part.first_triangle + i] =
+        exists ? static_cast<int32_t>(part.first_vertex + desc.indices[i]) : -1;
   }
+}
+
+std::vector<MeshPart> ranges_of(std::span<const focal_mesh_desc> parts) {
+  std::vector<MeshPart> ranges;
+  MeshPart next;
+  for (const focal_mesh_desc& desc : parts) {
+    next.vertex_count = desc.vertex_count, next.triangle_count = desc.index_count / 3;
+    ranges.push_back(next);
+    next.first_vertex += next.vertex_count, next.first_triangle += next.triangle_count;
+  }
+  return ranges;
+}
+
+TriangleMesh mesh_of(std::span<const focal_mesh_desc> parts, std::span<const MeshPart> ranges, bool lenient) {
+  const MeshPart& last = ranges.back();
+  TriangleMesh mesh;
+  mesh.positions.resize(static_cast<Eigen::Index>(last.first_vertex + last.vertex_count), 3);
+  mesh.triangles.resize(static_cast<Eigen::Index>(last.first_triangle + last.triangle_count), 3);
+  for (size_t i = 0; i < parts.size(); ++i) add_part(parts[i], ranges[i], lenient, mesh);
   return mesh;
+}
+
+// As scenery is judged and named.
+std::vector<MeshPiece> pieces_of(std::span<const MeshPart> ranges) {
+  std::vector<MeshPiece> pieces;
+  if (ranges.size() < 2) return pieces;
+  for (const MeshPart& range : ranges)
+    pieces.push_back({"part " + std::to_string(pieces.size()), static_cast<int32_t>(range.first_triangle),
+                      static_cast<int32_t>(range.triangle_count)});
+  return pieces;
 }
 
 // What prepare leaves out, as the getters and the writers need it.
@@ -160,6 +198,25 @@ void finish(MeshObject& object, TriangleMesh source, std::vector<MeshPiece> piec
   note_scenery(*mesh, prepare_params.pieces, object);
   object.mesh = std::move(mesh);
   object.repair_seconds = watch.lap();
+}
+
+focal_mesh* made_of(const focal_context* context, std::span<const focal_mesh_desc* const> given,
+                    const focal_mesh_params* params) {
+  const auto running = resolve<ContextObject>(context);
+  std::vector<focal_mesh_desc> parts;
+  for (const focal_mesh_desc* one : given) require_struct(one), parts.push_back(read_struct(one));
+  const focal_mesh_params how = checked(params);
+  for (const focal_mesh_desc& one : parts) check_desc(one);
+  const std::vector<MeshPart> ranges = ranges_of(parts);
+  check_size(ranges, how);
+  const TaskLease lease(how.task);
+  const auto object = std::make_shared<MeshObject>();
+  object->memory_budget = running->memory_budget;
+  object->parts = ranges;
+  finish(*object, mesh_of(parts, ranges, how.lenient != 0), pieces_of(ranges), how,
+         running->execution_with(lease.task()));
+  running->report_warnings(object->warnings);
+  return publish(object);
 }
 
 // Moves what has a skin to where an animation has it at a time.
@@ -203,6 +260,10 @@ focal_mesh* load(const focal_context* context, const focal_mesh_params* given, s
   object->name = std::move(name);
   if (params.keep_source_file != 0 && !params.pose_animation) object->document = document;
   object->primitives = std::move(gltf.primitives);
+  for (const GltfPrimitive& one : object->primitives)
+    object->parts.push_back({static_cast<uint64_t>(one.first_vertex), static_cast<uint64_t>(one.vertex_count),
+                             static_cast<uint64_t>(one.first_triangle),
+                             static_cast<uint64_t>(one.triangle_count)});
   object->warnings = std::move(gltf.warnings);
   for (std::string& hidden : gltf.hidden)
     object->left_out.push_back({FOCAL_SCENERY_HIDDEN, std::move(hidden)});
@@ -228,17 +289,18 @@ focal_status focal_mesh_create(const focal_context* context, const focal_mesh_de
                                const focal_mesh_params* params, focal_mesh** out_mesh) {
   return guarded([&] {
     require(out_mesh, "out_mesh");
-    const auto running = resolve<ContextObject>(context);
-    require_struct(desc);
-    const focal_mesh_desc description = read_struct(desc);
-    const focal_mesh_params how = checked(params);
-    check_desc(description, how);
-    const TaskLease lease(how.task);
-    const auto object = std::make_shared<MeshObject>();
-    object->memory_budget = running->memory_budget;
-    finish(*object, mesh_of(description, how.lenient != 0), {}, how, running->execution_with(lease.task()));
-    running->report_warnings(object->warnings);
-    *out_mesh = publish(object);
+    *out_mesh = made_of(context, std::span(&desc, 1), params);
+  });
+}
+
+focal_status focal_mesh_create_parts(const focal_context* context, const focal_mesh_desc* const* parts,
+                                     uint64_t part_count, const focal_mesh_params* params,
+                                     focal_mesh** out_mesh) {
+  return guarded([&] {
+    require(out_mesh, "out_mesh");
+    require(parts, "parts");
+    check_range("part_count", static_cast<double>(part_count), 1, 65536);
+    *out_mesh = made_of(context, std::span(parts, part_count), params);
   });
 }
 

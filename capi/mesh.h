@@ -19,6 +19,11 @@ struct LeftOut {
   bool is_whole_node = true;
 };
 
+// Of the caller's vertices and triangles.
+struct MeshPart {
+  uint64_t first_vertex = 0, vertex_count = 0, first_triangle = 0, triangle_count = 0;
+};
+
 struct MeshObject {
   using Handle = focal_mesh;
   static constexpr HandleType type = HandleType::mesh;
@@ -34,6 +39,7 @@ struct MeshObject {
       document;                           // the caller's glTF; null when there is none or it was not kept
   std::vector<GltfPrimitive> primitives;  // of that file
   std::vector<LeftOut> left_out;
+  std::vector<MeshPart> parts;
 };
 
 }  // namespace focal

@@ -16,6 +16,14 @@ static_assert(sizeof(focal_mesh_info) == 152 && offsetof(focal_mesh_info, repair
               offsetof(focal_mesh_info, is_oriented) == 128 && offsetof(focal_mesh_info, is_wrapped) == 132);
 
 template <>
+struct StructTraits<focal_mesh_part> {
+  static constexpr const char* name = "focal_mesh_part";
+  static constexpr size_t first_size = sizeof(focal_mesh_part);
+  static focal_mesh_part defaults() { return {}; }
+};
+static_assert(sizeof(focal_mesh_part) == 40 && offsetof(focal_mesh_part, first_vertex) == 8);
+
+template <>
 struct StructTraits<focal_left_out> {
   static constexpr const char* name = "focal_left_out";
   static constexpr size_t first_size = sizeof(focal_left_out);
@@ -68,6 +76,27 @@ focal_status focal_mesh_get_info(const focal_mesh* mesh, focal_mesh_info* out_in
   return guarded([&] {
     const auto object = resolve<MeshObject>(mesh);
     write_result(out_info, info_of(*object));
+  });
+}
+
+focal_status focal_mesh_part_init(focal_mesh_part* part, size_t struct_size) {
+  return guarded([&] { init_struct(part, struct_size); });
+}
+
+uint32_t focal_mesh_part_count(const focal_mesh* mesh) {
+  return guarded_value<uint32_t>(
+      0, [&] { return static_cast<uint32_t>(resolve<MeshObject>(mesh)->parts.size()); });
+}
+
+focal_status focal_mesh_get_part(const focal_mesh* mesh, uint32_t index, focal_mesh_part* out_part) {
+  return guarded([&] {
+    const auto object = resolve<MeshObject>(mesh);
+    check_index(index, object->parts.size(), "the mesh", "parts");
+    const MeshPart& from = object->parts[index];
+    focal_mesh_part to{};
+    to.first_vertex = from.first_vertex, to.vertex_count = from.vertex_count;
+    to.first_triangle = from.first_triangle, to.triangle_count = from.triangle_count;
+    write_result(out_part, to);
   });
 }
 

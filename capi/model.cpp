@@ -107,6 +107,8 @@ TrainParams checked(const focal_train_params* given) {
   return result;
 }
 
+}  // namespace
+
 focal_model* publish_model(std::shared_ptr<const ContextObject> context, LandmarkModel model) {
   const auto object = std::make_shared<ModelObject>();
   object->context = std::move(context);
@@ -115,7 +117,6 @@ focal_model* publish_model(std::shared_ptr<const ContextObject> context, Landmar
   return publish(object);
 }
 
-}  // namespace
 }  // namespace focal
 
 using namespace focal;

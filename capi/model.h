@@ -23,4 +23,6 @@ struct ModelObject {
   Lazy<uint64_t> file_bytes_;
 };
 
+focal_model* publish_model(std::shared_ptr<const ContextObject> context, LandmarkModel model);
+
 }  // namespace focal

@@ -9,7 +9,8 @@
 #include "base/error.h"
 #include "boundary.h"
 #include "gltf/document.h"
-#include "skeleton/bone_names.h"
+#include "skeleton/bone_roles.h"
+#include "skeleton/ground_root.h"
 #include "skeleton/joint_match.h"
 #include "skeleton/retarget.h"
 #include "skeleton_template.h"
@@ -29,8 +30,9 @@ struct StructTraits<focal_skeleton_params> {
     return params;
   }
 };
-static_assert(sizeof(void*) != 8 || (sizeof(focal_skeleton_params) == 56 &&
-                                     offsetof(focal_skeleton_params, joint_name_count) == 16));
+static_assert(sizeof(void*) != 8 || (sizeof(focal_skeleton_params) == 80 &&
+                                     offsetof(focal_skeleton_params, joint_name_count) == 16 &&
+                                     offsetof(focal_skeleton_params, fixed_joint_count) == 64));
 
 template <>
 struct StructTraits<focal_skeleton_info> {
@@ -57,10 +59,12 @@ namespace {
 
 void check(const focal_skeleton_params& params) {
   check_range("focal_skeleton_params.names", params.names, FOCAL_BONE_NAMES_AS_TRAINED,
-              FOCAL_BONE_NAMES_UNITY);
+              FOCAL_BONE_NAMES_RIGIFY_METARIG);
   check_flag("focal_skeleton_params.rest_pose", params.rest_pose);
   check_reserved("focal_skeleton_params.reserved", params.reserved);
   check_flag("focal_skeleton_params.symmetric", params.symmetric);
+  check_flag("focal_skeleton_params.ground_root", params.ground_root);
+  check_reserved("focal_skeleton_params.reserved_2", params.reserved_2);
   check_range("focal_skeleton_params.max_influences", params.max_influences, 1, 2 * most_influences);
   if (params.skeleton_template && params.animations)
     throw Error(Status::invalid_argument, "animations were asked for together with a template",
@@ -75,15 +79,34 @@ void check_names(const focal_skeleton_params& params, size_t joints) {
                 "give one name, or NULL, for each joint of the model or template");
 }
 
+// In the caller's coordinates.
+FixedJoints fixed_joints(const focal_skeleton_params& params, size_t joints) {
+  if (!params.fixed_joints && params.fixed_joint_count == 0) return {};
+  require(params.fixed_joints, "focal_skeleton_params.fixed_joints");
+  check_count("focal_skeleton_params.fixed_joint_count", params.fixed_joint_count, joints, "the skeleton",
+              "joints");
+  FixedJoints result(joints);
+  for (size_t j = 0; j < joints; ++j) {
+    const Vector3 place = Eigen::Map<const Eigen::Vector3f>(params.fixed_joints + 3 * j).cast<double>();
+    if (place.allFinite()) result[j] = place;
+  }
+  return result;
+}
+
 void rename_joints(const focal_skeleton_params& params, CharacterRig& rig) {
   auto& joints = rig.rig.joints;
-  std::vector<std::string> names, unknown;
-  for (const Joint& joint : joints) names.push_back(joint.name);
-  names = bone_names(names, static_cast<BoneNames>(params.names), unknown);
-  for (const std::string& name : unknown)
-    rig.warnings.push_back("bone '" + name + "' has no name in this convention and keeps its own");
+  size_t known = 0;
+  const std::vector<std::string> names = names_by_role(joints, static_cast<BoneNames>(params.names), known);
+  if (known == 0)
+    rig.warnings.push_back("no bone has a role in this convention of names: all of them keep their own");
   for (size_t j = 0; j < joints.size(); ++j)
     joints[j].name = params.joint_names && params.joint_names[j] ? params.joint_names[j] : names[j];
+}
+
+void put_root(const focal_skeleton_params& params, SkeletonObject& object) {
+  const bool capital = params.names == FOCAL_BONE_NAMES_UNITY;
+  add_ground_root(capital ? "Root" : "root", object.mesh->mesh->source, object.rig);
+  for (JointAnimation& one : object.animations) one.joints.insert(one.joints.begin(), JointKeys{});
 }
 
 void judge(SkeletonObject& object, const RigMeasures& measures) {
@@ -190,6 +213,22 @@ std::vector<ReplacedJoint> replaced_joints(const MeshObject& mesh, const std::ve
   return result;
 }
 
+// The mesh's own file with the skeleton, and with the landmarks where some were looked for.
+SourceFile with_skeleton(const SkeletonObject& object, const std::filesystem::path& path) {
+  SourceFile source = source_file(*object.mesh, path);
+  const std::vector<Joint>& joints = object.rig.rig.joints;
+  if (object.keeps_joints) {
+    source.document.replace_weights(source.primitives, object.rig.rig);
+  } else {
+    GltfRig rig{&object.rig.rig, object.rig.tip, {}, object.animations, &object.mesh->mesh->source};
+    if (object.in_rest_pose) rig.pose = object.rig.rest;
+    rig.replaces = replaced_joints(*object.mesh, joints);
+    source.document.add_skin(source.primitives, rig);
+  }
+  if (object.detection) put_landmarks(*object.detection, source);
+  return source;
+}
+
 focal_joint to_abi(const CharacterRig& rig, size_t index) {
   const Joint& from = rig.rig.joints[index];
   focal_joint to{};
@@ -229,36 +268,40 @@ focal_status focal_skeleton_create(const focal_detection* detection, const focal
     require(out_skeleton, "out_skeleton");
     const auto object = std::make_shared<SkeletonObject>();
     object->detection = resolve<DetectionObject>(detection);
+    object->mesh = object->detection->mesh, object->context = object->detection->model->context;
     const focal_skeleton_params how = read_struct(params);
     check(how);
     std::optional<SkeletonTemplate> by_hand;
     if (how.skeleton_template) by_hand = parse_skeleton_template(how.skeleton_template);
-    check_names(how, by_hand ? by_hand->joints.size() : object->detection->model->info.joint_names.size());
+    const size_t joint_count =
+        by_hand ? by_hand->joints.size() : object->detection->model->info.joint_names.size();
+    check_names(how, joint_count);
+    const FixedJoints fixed = fixed_joints(how, joint_count);
     const auto character = how.animations ? resolve<MeshObject>(how.animations) : nullptr;
     const TaskLease lease(task);
-    const Execution execution = object->detection->model->context->execution_with(lease.task());
+    const Execution execution = object->context->execution_with(lease.task());
     execution.check_cancelled();
     const Detection& found = object->detection->detection;
     if (by_hand) by_hand->symmetric |= how.symmetric != 0;
-    object->rig = by_hand ? rig_by_template(*by_hand, found, execution, how.max_influences)
-                          : transfer_rig(found, execution, how.symmetric != 0, how.max_influences);
+    object->rig = by_hand ? rig_by_template(*by_hand, found, execution, how.max_influences, fixed)
+                          : transfer_rig(found, execution, how.symmetric != 0, how.max_influences, fixed);
     // Before the joints are renamed: names identify pairs of joints, and those of the model.
     const RigMeasures measures = rig_measures(found, object->rig);
     if (how.rest_pose && object->rig.rest.empty())
       throw Error(Status::invalid_argument, "the template has no rest pose",
                   R"(give its joints a "rest": the way their bones point)");
     if (character)
-      object->animations =
-          animations_for(object->rig, *object->detection->mesh->mesh, *character, object->rig.warnings);
+      object->animations = animations_for(object->rig, *object->mesh->mesh, *character, object->rig.warnings);
     object->in_rest_pose = how.rest_pose != 0;
     rename_joints(how, object->rig);
-    const auto idle = clips_of_former_skeleton(*object->detection->mesh, object->rig.rig.joints);
+    const auto idle = clips_of_former_skeleton(*object->mesh, object->rig.rig.joints);
     if (!idle.empty())
       object->rig.warnings.push_back(
           "animations of the file move its former skeleton, which the mesh does not follow any more: " +
           listed(idle) + "; --animations (animations) plays them on the new one");
     judge(*object, measures);
-    object->detection->model->context->report_warnings(object->rig.warnings);
+    if (how.ground_root) put_root(how, *object);
+    object->context->report_warnings(object->rig.warnings);
     *out_skeleton = publish(object);
   });
 }
@@ -338,13 +381,19 @@ focal_status focal_skeleton_write_gltf(const focal_skeleton* skeleton, const cha
   return guarded([&] {
     const auto object = resolve<SkeletonObject>(skeleton);
     const auto file = path_of(path);
-    const MeshObject& mesh = *object->detection->mesh;
-    SourceFile source = source_file(mesh, file);
-    GltfRig rig{&object->rig.rig, object->rig.tip, {}, object->animations, &mesh.mesh->source};
-    if (object->in_rest_pose) rig.pose = object->rig.rest;
-    rig.replaces = replaced_joints(mesh, object->rig.rig.joints);
-    source.document.add_skin(source.primitives, rig);
-    put_landmarks(*object->detection, source);
-    object->detection->model->context->report_warnings(write_document(source.document, file));
+    const SourceFile source = with_skeleton(*object, file);
+    object->context->report_warnings(write_document(source.document, file));
+  });
+}
+
+focal_status focal_skeleton_write_vrm(const focal_skeleton* skeleton, const char* meta, const char* path) {
+  return guarded([&] {
+    require(meta, "meta");
+    const auto object = resolve<SkeletonObject>(skeleton);
+    const auto file = path_of(path);
+    const auto& joints = object->rig.rig.joints;
+    SourceFile source = with_skeleton(*object, file);
+    source.document.add_vrm(joints, bone_roles(joints), meta);
+    object->context->report_warnings(write_document(source.document, file));
   });
 }

@@ -15,8 +15,11 @@ struct SkeletonObject {
   using Handle = focal_skeleton;
   static constexpr HandleType type = HandleType::skeleton;
 
-  std::shared_ptr<const DetectionObject> detection;
+  std::shared_ptr<const ContextObject> context;
+  std::shared_ptr<const MeshObject> mesh;
+  std::shared_ptr<const DetectionObject> detection;  // null: a skeleton that was there
   CharacterRig rig;
+  bool keeps_joints = false;  // those of the mesh's own file, which gets other weights only
   Verdict verdict = Verdict::check;
   double quality = 0;
   uint32_t guessed_joints = 0;

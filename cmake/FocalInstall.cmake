@@ -1,4 +1,4 @@
-# What `cmake --install` lays down: the library, its header, the command, and how CMake and pkg-config find them.
+# What `cmake --install` lays down: the library, its header, the command, the stock models, and how CMake and pkg-config find them.
 include(CMakePackageConfigHelpers)
 
 install(TARGETS focal EXPORT focal-targets
@@ -20,6 +20,10 @@ install(FILES ${PROJECT_BINARY_DIR}/focal-config.cmake ${PROJECT_BINARY_DIR}/foc
 file(RELATIVE_PATH FOCAL_PC_TO_PREFIX /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix)
 configure_file(${CMAKE_CURRENT_LIST_DIR}/focal.pc.in ${PROJECT_BINARY_DIR}/focal.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/focal.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+
+# The stock models, where samples/stock/make.sh made them.
+install(DIRECTORY ${PROJECT_BINARY_DIR}/models/ DESTINATION ${CMAKE_INSTALL_DATADIR}/focal/models OPTIONAL
+  FILES_MATCHING PATTERN "*.focal")
 
 if(TARGET focal_cuda)
   install(TARGETS focal_cuda LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})

@@ -6,6 +6,7 @@
 #include "command_error.h"
 #include "files.h"
 #include "marked_mesh.h"
+#include "models.h"
 #include "output.h"
 #include "parameters.h"
 #include "progress.h"
@@ -134,7 +135,7 @@ void batch(const Options& options) {
   if (error) throw CommandError("cannot make the folder " + options.output, error.message());
   const Context context = make_context(options);
   Progress progress(options.quiet);
-  const auto model = owned<Model>(focal_model_load, context.get(), options.model.c_str());
+  const auto model = load_model(context.get(), options.model);
   Json list = Json::array();
   size_t failed = 0, kept = 0;
   for (size_t i = 0; i < files.size(); ++i) {
@@ -167,7 +168,9 @@ void add_batch(CLI::App& app) {
   CLI::App* verb =
       app.add_subcommand("batch", "Put a model to every mesh of a folder; goes on where it stopped");
   const auto options = std::make_shared<Options>();
-  verb->add_option("MODEL", options->model, "Model file")->type_name("")->required();
+  verb->add_option("MODEL", options->model, "Model file, or the name of a stock model: focal models")
+      ->type_name("")
+      ->required();
   verb->add_option("FOLDER", options->input, "Folder with .glb and .gltf files")->type_name("")->required();
   verb->add_option(
           "-o,--output", options->output,

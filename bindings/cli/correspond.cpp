@@ -4,6 +4,7 @@
 #include "files.h"
 #include "landmark_text.h"
 #include "marked_mesh.h"
+#include "models.h"
 #include "output.h"
 #include "parameters.h"
 #include "progress.h"
@@ -55,7 +56,7 @@ void correspond(const Options& options) {
   check_output_folder(options.output);
   const Context context = make_context(options);
   Progress progress(options.quiet);
-  const auto model = owned<Model>(focal_model_load, context.get(), options.model.c_str());
+  const auto model = load_model(context.get(), options.model);
   const Mesh from = load_mesh(context.get(), options.from, options),
              to = load_mesh(context.get(), options.to, options);
   auto params = detect_params_of(options.quality, options);
@@ -82,7 +83,9 @@ void correspond(const Options& options) {
 void add_correspond(CLI::App& app) {
   CLI::App* verb = app.add_subcommand("correspond", "Find which point of one mesh is which of another");
   const auto options = std::make_shared<Options>();
-  verb->add_option("MODEL", options->model, "Model file")->type_name("")->required();
+  verb->add_option("MODEL", options->model, "Model file, or the name of a stock model: focal models")
+      ->type_name("")
+      ->required();
   verb->add_option("A", options->from, "glTF file: each of its landmarks or vertices ...")
       ->type_name("")
       ->required();

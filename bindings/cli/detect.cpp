@@ -6,6 +6,7 @@
 #include "landmark_files.h"
 #include "landmark_text.h"
 #include "marked_mesh.h"
+#include "models.h"
 #include "output.h"
 #include "parameters.h"
 #include "progress.h"
@@ -136,7 +137,7 @@ void detect(const Options& options) {
   if (!options.output.empty() && !is_gltf(options.output)) landmark_format_of(options.output);
   const Context context = make_context(options);
   Progress progress(options.quiet);
-  const auto model = owned<Model>(focal_model_load, context.get(), options.model.c_str());
+  const auto model = load_model(context.get(), options.model);
   const Mesh mesh = load_mesh(context.get(), options.mesh, options);
   auto params = detect_params_of(options.quality, options);
   params.keep_votes = !options.votes.empty();
@@ -158,7 +159,9 @@ void detect(const Options& options) {
 void add_detect(CLI::App& app) {
   CLI::App* verb = app.add_subcommand("detect", "Find a model's landmarks on a mesh");
   const auto options = std::make_shared<Options>();
-  verb->add_option("MODEL", options->model, "Model file")->type_name("")->required();
+  verb->add_option("MODEL", options->model, "Model file, or the name of a stock model: focal models")
+      ->type_name("")
+      ->required();
   verb->add_option("MESH", options->mesh, "glTF file, .glb or .gltf")->type_name("")->required();
   verb->add_option(
           "-o,--output", options->output,

@@ -2,6 +2,7 @@
 #include <iostream>
 #include <thread>
 
+#include "models.h"
 #include "options.h"
 #include "output.h"
 #include "text_table.h"
@@ -10,6 +11,9 @@ namespace focal_cli {
 namespace {
 
 Json diagnosis(const focal_context* context) {
+  Json stock = Json::array();
+  for (const StockModel& one : stock_models(context))
+    stock.push_back({{"name", one.name}, {"file", one.path}});
   const auto limits = initialised(focal_mesh_params_init);
   return {{"version", focal_version_string()},
           {"backend",
@@ -22,7 +26,14 @@ Json diagnosis(const focal_context* context) {
             {"max_nodes", limits.max_nodes},
             {"max_json_bytes", limits.max_json_bytes},
             {"max_file_bytes", limits.max_file_bytes}}},
+          {"stock_models", stock},
           {"peak_memory_bytes", focal_peak_memory_bytes()}};
+}
+
+std::string stock_text(const Json& models) {
+  std::string names;
+  for (const Json& one : models) names += (names.empty() ? "" : ", ") + one["name"].get<std::string>();
+  return names.empty() ? "none (samples/stock/make.sh makes them; FOCAL_MODELS names their folder)" : names;
 }
 
 void print_diagnosis(const Json& report) {
@@ -34,6 +45,7 @@ void print_diagnosis(const Json& report) {
                                report["backend"]["reason"].get<std::string>() + ")"},
                {"threads",
                 number(report["threads"]["used"]) + " of " + number(report["threads"]["cores"]) + " cores"},
+               {"stock models", stock_text(report["stock_models"])},
                {"largest mesh",
                 number(limits["max_vertices"]) + " vertices, " + number(limits["max_nodes"]) + " nodes"},
                {"largest file", bytes_text(limits["max_file_bytes"].get<double>()) + ", its JSON " +
@@ -43,7 +55,8 @@ void print_diagnosis(const Json& report) {
 }  // namespace
 
 void add_doctor(CLI::App& app) {
-  CLI::App* verb = app.add_subcommand("doctor", "Show version, backend and why, threads and limits");
+  CLI::App* verb =
+      app.add_subcommand("doctor", "Show version, backend and why, threads, stock models and limits");
   const auto options = std::make_shared<CommonOptions>();
   add_common_options(*verb, *options, false);
   verb->callback([options] {

@@ -4,6 +4,7 @@
 
 #include "command_error.h"
 #include "files.h"
+#include "models.h"
 #include "output.h"
 #include "parameters.h"
 #include "progress.h"
@@ -74,7 +75,7 @@ void evaluate(const Options& options) {
   const size_t mesh_count = set.meshes(options.split, options.limit).size();
   const Context context = make_context(options);
   Progress progress(options.quiet);
-  const auto model = owned<Model>(focal_model_load, context.get(), options.model.c_str());
+  const auto model = load_model(context.get(), options.model);
   check_some_known(model.get(), counted, set.name);
   std::optional<ReportPage> page;
   if (!options.report.empty()) page.emplace(counted, mesh_count);
@@ -101,7 +102,9 @@ void evaluate(const Options& options) {
 void add_eval(CLI::App& app) {
   CLI::App* verb = app.add_subcommand("eval", "Measure a model on the marked meshes of a set");
   const auto options = std::make_shared<Options>();
-  verb->add_option("MODEL", options->model, "Model file")->type_name("")->required();
+  verb->add_option("MODEL", options->model, "Model file, or the name of a stock model: focal models")
+      ->type_name("")
+      ->required();
   verb->add_option("SET", options->set, "Folder with set.json, NAME.glb and NAME.landmarks.json")
       ->type_name("")
       ->required();

@@ -5,6 +5,7 @@
 
 #include "files.h"
 #include "marked_mesh.h"
+#include "models.h"
 #include "options.h"
 #include "output.h"
 #include "report.h"
@@ -130,11 +131,10 @@ void print_text(const Json& report) {
 
 void info(const Options& options) {
   const Context context = make_context(options);
-  const Json report =
-      is_mesh(options.file)
-          ? mesh_json(load_mesh(context.get(), options.file, options).get(), options.file)
-          : model_json(owned<Model>(focal_model_load, context.get(), options.file.c_str()).get(),
-                       options.file);
+  const bool shows_mesh = is_mesh(options.file) && !is_stock_model(context.get(), options.file);
+  const Json report = shows_mesh
+                          ? mesh_json(load_mesh(context.get(), options.file, options).get(), options.file)
+                          : model_json(load_model(context.get(), options.file).get(), options.file);
   if (options.json) print_json(report);
   if (options.prints_text()) print_text(report);
 }
@@ -144,7 +144,9 @@ void info(const Options& options) {
 void add_info(CLI::App& app) {
   CLI::App* verb = app.add_subcommand("info", "Show what is in a model or a mesh");
   const auto options = std::make_shared<Options>();
-  verb->add_option("FILE", options->file, "Model file, .glb or .gltf")->type_name("")->required();
+  verb->add_option("FILE", options->file, "Model file, name of a stock model, .glb or .gltf")
+      ->type_name("")
+      ->required();
   add_mesh_options(*verb, *options);
   add_common_options(*verb, *options, false);
   verb->callback([options] { info(*options); });

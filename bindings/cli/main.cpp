@@ -15,7 +15,7 @@ int run(int argc, char** argv) {
   app.failure_message(CLI::FailureMessage::simple);
   app.require_subcommand(1);
   for (const auto add : {add_train, add_detect, add_rig, add_segment, add_correspond, add_batch, add_eval,
-                         add_cross_validate, add_info, add_convert, add_doctor}) {
+                         add_cross_validate, add_info, add_convert, add_models, add_doctor}) {
     add(app);
   }
   try {

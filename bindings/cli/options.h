@@ -56,5 +56,6 @@ void add_cross_validate(CLI::App& app);
 void add_info(CLI::App& app);
 void add_convert(CLI::App& app);
 void add_doctor(CLI::App& app);
+void add_models(CLI::App& app);
 
 }  // namespace focal_cli

@@ -1,17 +1,22 @@
 // focal rig: the skeleton and skin weights of a model's characters, put into a mesh's own glTF.
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <limits>
 #include <map>
 
 #include "command_error.h"
 #include "files.h"
+#include "keep_skeleton.h"
 #include "landmark_text.h"
 #include "marked_mesh.h"
+#include "models.h"
 #include "output.h"
 #include "parameters.h"
 #include "progress.h"
+#include "rig_report.h"
 #include "text_table.h"
 #include "verdict_text.h"
 
@@ -19,22 +24,28 @@ namespace focal_cli {
 namespace {
 
 struct Options : CommonOptions {
-  std::string model, mesh, output, names, animations, skeleton_template;
-  bool rest_pose = false, symmetric = false, keep_failed = false;
+  std::string model, mesh, output, names, animations, skeleton_template, vrm;
+  std::vector<std::string> pins;
+  bool rest_pose = false, symmetric = false, keep_failed = false, keep_skeleton = false, ground_root = false;
   int32_t influences = 4;
   focal_quality quality = FOCAL_QUALITY_BEST;
 };
 
 const std::map<std::string, focal_bone_names> conventions = {
-    {"vrm", FOCAL_BONE_NAMES_VRM},       {"mixamo", FOCAL_BONE_NAMES_MIXAMO},
-    {"unreal", FOCAL_BONE_NAMES_UNREAL}, {"rigify", FOCAL_BONE_NAMES_RIGIFY},
-    {"unity", FOCAL_BONE_NAMES_UNITY},   {"godot", FOCAL_BONE_NAMES_UNITY}};
+    {"vrm", FOCAL_BONE_NAMES_VRM},
+    {"mixamo", FOCAL_BONE_NAMES_MIXAMO},
+    {"unreal", FOCAL_BONE_NAMES_UNREAL},
+    {"rigify", FOCAL_BONE_NAMES_RIGIFY},
+    {"unity", FOCAL_BONE_NAMES_UNITY},
+    {"godot", FOCAL_BONE_NAMES_UNITY},
+    {"rigify-metarig", FOCAL_BONE_NAMES_RIGIFY_METARIG}};
 
 // A JSON object from the model's joint names to others; a joint that it lacks keeps its name.
 std::vector<std::string> names_from_file(const std::string& path, const std::vector<std::string>& joints) {
   if (!std::filesystem::exists(path))
-    throw CommandError("'" + path + "' is neither a convention of bone names nor a file",
-                       "write vrm, mixamo, unreal, rigify, unity or godot, or pass a JSON file of names");
+    throw CommandError(
+        "'" + path + "' is neither a convention of bone names nor a file",
+        "write vrm, mixamo, unreal, rigify, rigify-metarig, unity or godot, or pass a JSON file of names");
   const Json file = Json::parse(read_text_file(path), nullptr, false);
   if (!file.is_object())
     throw CommandError(path + " is not an object of joint names", R"(write {"hips": "Pelvis", ...})");
@@ -61,25 +72,44 @@ std::vector<std::string> template_joints(const std::string& text) {
   return names;
 }
 
+// "NAME=X,Y,Z" each: joint_count x 3, NaN for a joint that follows.
+std::vector<float> pinned(const std::vector<std::string>& pins, const std::vector<std::string>& joints) {
+  std::vector<float> places(pins.empty() ? 0 : 3 * joints.size(), std::numeric_limits<float>::quiet_NaN());
+  for (const std::string& pin : pins) {
+    const size_t sign = std::min(pin.rfind('='), pin.size());
+    const auto at = std::find(joints.begin(), joints.end(), pin.substr(0, sign));
+    float p[3];
+    char rest = 0;
+    if (at == joints.end() || std::sscanf(pin.c_str() + sign, "=%f,%f,%f%c", &p[0], &p[1], &p[2], &rest) != 3)
+      throw CommandError("--pin " + pin + " names no joint of the skeleton, or no place",
+                         "write --pin NAME=X,Y,Z in the mesh's units; 'focal info MODEL' lists the joints");
+    std::copy(p, p + 3, places.begin() + 3 * (at - joints.begin()));
+  }
+  return places;
+}
+
 Skeleton skeleton_of(const Options& options, const focal_model* model, const focal_detection* detection,
                      const focal_mesh* animations, focal_task* task) {
   auto params = initialised(focal_skeleton_params_init);
   params.animations = animations;
   params.rest_pose = options.rest_pose, params.symmetric = options.symmetric;
-  params.max_influences = options.influences;
+  params.max_influences = options.influences, params.ground_root = options.ground_root;
   std::string skeleton_template;
   if (!options.skeleton_template.empty()) {
     skeleton_template = read_text_file(options.skeleton_template);
     params.skeleton_template = skeleton_template.c_str();
   }
+  const std::vector<std::string> joints =
+      skeleton_template.empty() ? joint_names_of(model) : template_joints(skeleton_template);
+  const std::vector<float> pins = pinned(options.pins, joints);
+  if (!pins.empty()) params.fixed_joints = pins.data(), params.fixed_joint_count = joints.size();
   std::vector<std::string> names;
   std::vector<const char*> pointers;
   const auto convention = conventions.find(options.names);
   if (convention != conventions.end()) {
     params.names = convention->second;
   } else if (!options.names.empty()) {
-    names = names_from_file(options.names, skeleton_template.empty() ? joint_names_of(model)
-                                                                     : template_joints(skeleton_template));
+    names = names_from_file(options.names, joints);
     for (const std::string& name : names) pointers.push_back(name.c_str());
     params.joint_names = pointers.data(), params.joint_name_count = pointers.size();
   }
@@ -92,49 +122,25 @@ bool writes(const RigVerdict& verdict, const Options& options) {
 
 Json report_of(const focal_skeleton* skeleton, const focal_detection* detection, const RigVerdict& verdict,
                const Options& options, double seconds) {
-  auto info = initialised(focal_skeleton_info_init);
-  check(focal_skeleton_get_info(skeleton, &info));
   auto found = initialised(focal_detection_info_init);
   check(focal_detection_get_info(detection, &found));
-  std::vector<focal_joint> joints(info.joint_count);
-  Json list = Json::array(), warnings = Json::array();
-  for (uint32_t i = 0; i < info.joint_count; ++i) {
-    joints[i] = initialised(focal_joint_init);
-    check(focal_skeleton_get_joint(skeleton, i, &joints[i]));
-    const int32_t parent = joints[i].parent;
-    list.push_back({{"name", joints[i].name},
-                    {"parent", parent < 0 ? Json() : Json(joints[static_cast<size_t>(parent)].name)},
-                    {"position", triple(joints[i].position)},
-                    {"tip", triple(joints[i].tip)},
-                    {"confidence", joints[i].confidence}});
-  }
+  Json warnings = Json::array();
   for (uint32_t i = 0; i < found.warning_count; ++i)
     warnings.push_back(focal_detection_warning(detection, i));
-  for (uint32_t i = 0; i < info.warning_count; ++i) warnings.push_back(focal_skeleton_warning(skeleton, i));
+  add_skeleton_warnings(warnings, skeleton);
   Json report = {{"mesh", options.mesh}, {"output", Json()}};
   if (writes(verdict, options)) report["output"] = options.output;
   add_verdict(report, verdict);
-  report.update(
-      {{"joints", list},
-       {"weights",
-        {{"max_influences", info.max_influences}, {"unweighted_vertices", info.unweighted_vertices}}},
-       {"category_fit", found.category_fit},
-       {"warnings", warnings},
-       {"seconds", seconds}});
+  report.update({{"joints", joints_json(skeleton)},
+                 {"weights", weights_json(skeleton)},
+                 {"category_fit", found.category_fit},
+                 {"warnings", warnings},
+                 {"seconds", seconds}});
   return report;
 }
 
 void print_rig(const Json& report, const RigVerdict& verdict) {
-  std::vector<std::vector<std::string>> rows = {{"joint", "parent", "x", "y", "z", "confidence"}};
-  for (const Json& joint : report["joints"]) {
-    std::vector<std::string> row = {joint["name"],
-                                    joint["parent"].is_null() ? "-" : joint["parent"].get<std::string>()};
-    for (size_t axis = 0; axis < 3; ++axis)
-      row.push_back(fixed_text(joint["position"][axis].get<double>(), 4));
-    row.push_back(percent_text(joint["confidence"].get<double>(), 0));
-    rows.push_back(std::move(row));
-  }
-  print_table(std::cout, rows);
+  print_joints(report["joints"]);
   std::cout << "\nverdict: " << verdict_text(verdict) << "\n";
   if (!verdict.failed() && !verdict_hint(verdict).empty())
     std::cout << "hint: " << verdict_hint(verdict) << "\n";
@@ -143,12 +149,46 @@ void print_rig(const Json& report, const RigVerdict& verdict) {
             << " s; fits the category: " << percent_text(report["category_fit"].get<double>(), 0) << "\n";
 }
 
+void write_file(const Options& options, const focal_skeleton* skeleton) {
+  if (options.vrm.empty()) return check(focal_skeleton_write_gltf(skeleton, options.output.c_str()));
+  check(focal_skeleton_write_vrm(skeleton, read_text_file(options.vrm).c_str(), options.output.c_str()));
+}
+
+// The one file that is needed; a model is not.
+void rig_own_skeleton(const Options& options) {
+  if (!options.mesh.empty())
+    throw CommandError("--keep-skeleton needs no model, '" + options.model + "' is one too many",
+                       "write focal rig --keep-skeleton MESH -o OUT");
+  const std::pair<bool, const char*> others[] = {{!options.names.empty(), "--names"},
+                                                 {!options.skeleton_template.empty(), "--template"},
+                                                 {!options.animations.empty(), "--animations"},
+                                                 {options.rest_pose, "--rest-pose"},
+                                                 {options.symmetric, "--symmetric"},
+                                                 {options.ground_root, "--ground-root"},
+                                                 {!options.vrm.empty(), "--vrm"},
+                                                 {!options.pins.empty(), "--pin"}};
+  for (const auto& [given, name] : others)
+    if (given)
+      throw CommandError(std::string("--keep-skeleton and ") + name + " exclude each other",
+                         "the joints stay as they are");
+  keep_skeleton(options.model, options.output, options.influences, options);
+}
+
+// Who names a mesh alone has no model yet, and learns here which there are.
+void check_both_given(const Options& options, const focal_context* context) {
+  if (options.mesh.empty())
+    throw CLI::ValidationError("MODEL and MESH",
+                               "both are needed, '" + options.model + "' is alone; " + model_hint(context));
+}
+
 void rig(const Options& options) {
+  if (options.keep_skeleton) return rig_own_skeleton(options);
   const auto start = std::chrono::steady_clock::now();
-  check_output_folder(options.output);
   const Context context = make_context(options);
+  check_both_given(options, context.get());
+  check_output_folder(options.output);
   Progress progress(options.quiet);
-  const auto model = owned<Model>(focal_model_load, context.get(), options.model.c_str());
+  const auto model = load_model(context.get(), options.model);
   if (focal_model_joint_count(model.get()) == 0 && options.skeleton_template.empty())
     throw CommandError(
         "the model knows no skeleton",
@@ -164,7 +204,7 @@ void rig(const Options& options) {
   const Skeleton skeleton =
       skeleton_of(options, model.get(), detection.get(), animations.get(), progress.begin("rigging", 1, 2));
   const RigVerdict verdict = verdict_of(skeleton.get(), detection.get());
-  if (writes(verdict, options)) check(focal_skeleton_write_gltf(skeleton.get(), options.output.c_str()));
+  if (writes(verdict, options)) write_file(options, skeleton.get());
   progress.clear();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const Json report = report_of(skeleton.get(), detection.get(), verdict, options, seconds);
@@ -186,15 +226,18 @@ void add_rig(CLI::App& app) {
   CLI::App* verb =
       app.add_subcommand("rig", "Give a mesh the skeleton and skin weights of a model's characters");
   const auto options = std::make_shared<Options>();
-  verb->add_option("MODEL", options->model, "Model of rigged characters: focal train --rigs")
+  verb->add_option(
+          "MODEL", options->model,
+          "Model of rigged characters (focal train --rigs), or the name of a stock model: focal models")
       ->type_name("")
       ->required();
-  verb->add_option("MESH", options->mesh, "glTF file, .glb or .gltf")->type_name("")->required();
+  verb->add_option("MESH", options->mesh, "glTF file, .glb or .gltf")->type_name("");
   verb->add_option("-o,--output", options->output, "The mesh's own file with skeleton, skin and landmarks")
       ->type_name("OUT.glb")
       ->required();
   verb->add_option("--names", options->names,
-                   "What bones are called: vrm, mixamo, unreal, rigify, unity, godot, or a JSON file of the "
+                   "What bones are called: vrm, mixamo, unreal, rigify, rigify-metarig, unity, godot, or a "
+                   "JSON file of the "
                    "model's joint names and yours; without it as on the characters")
       ->type_name("NAMES");
   verb->add_option(
@@ -209,6 +252,21 @@ void add_rig(CLI::App& app) {
   verb->add_flag("--rest-pose", options->rest_pose,
                  "Show the mesh in the rest pose (T or A) of the first character that taught the model, by "
                  "its new joints");
+  verb->add_flag("--ground-root", options->ground_root,
+                 "One more joint on the ground, above all others, as engines expect it");
+  verb->add_option(
+          "--vrm", options->vrm,
+          "Write a VRM 1.0 avatar, with its meta data from a JSON file: {\"name\": ..., \"authors\": [...]}")
+      ->type_name("META.json");
+  verb->add_option("--pin", options->pins,
+                   "Where a joint lies, of the model's names, in the mesh's units; others follow. May be "
+                   "given several times")
+      ->type_name("NAME=X,Y,Z")
+      ->allow_extra_args(false);
+  verb->add_flag("--keep-skeleton", options->keep_skeleton,
+                 "Weights only, without a model: focal rig --keep-skeleton MESH -o OUT. The joints of the "
+                 "mesh's own skin stay "
+                 "to the bit");
   verb->add_flag("--keep-failed", options->keep_failed,
                  "Write the file even where the verdict is 'failed'; the exit status is 1 all the same");
   verb->add_option("--animations", options->animations,

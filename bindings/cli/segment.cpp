@@ -4,6 +4,7 @@
 
 #include "files.h"
 #include "marked_mesh.h"
+#include "models.h"
 #include "output.h"
 #include "parameters.h"
 #include "progress.h"
@@ -30,7 +31,7 @@ void segment(const Options& options) {
   check_output_folder(options.output);
   const Context context = make_context(options);
   Progress progress(options.quiet);
-  const auto model = owned<Model>(focal_model_load, context.get(), options.model.c_str());
+  const auto model = load_model(context.get(), options.model);
   const Mesh mesh = load_mesh(context.get(), options.mesh, options);
   auto params = detect_params_of(options.quality, options);
   params.keep_votes = 0;
@@ -65,7 +66,9 @@ void segment(const Options& options) {
 void add_segment(CLI::App& app) {
   CLI::App* verb = app.add_subcommand("segment", "Divide a mesh into parts under the model's names");
   const auto options = std::make_shared<Options>();
-  verb->add_option("MODEL", options->model, "Model file")->type_name("")->required();
+  verb->add_option("MODEL", options->model, "Model file, or the name of a stock model: focal models")
+      ->type_name("")
+      ->required();
   verb->add_option("MESH", options->mesh, "glTF file, .glb or .gltf")->type_name("")->required();
   verb->add_option("-o,--output", options->output,
                    "The mesh with its parts as vertex colours; OUT.labels.json beside it gets a label for "

@@ -133,6 +133,7 @@ typedef struct focal_context_params {
    * the library hold more than this in the process, for all its contexts together. Not counted: threads' stacks, a GPU's
    * memory, and what the library's own code takes (a few MB). docs/performance.md lists what detections take. */
   uint64_t memory_budget_bytes;
+  const char* models_folder; /* stock models of the host's own, see focal_context_stock_count. NULL: none */
 } focal_context_params;
 
 FOCAL_API focal_status focal_context_params_init(focal_context_params* params, size_t struct_size);
@@ -256,6 +257,27 @@ FOCAL_API focal_status focal_mesh_load_gltf_memory(const focal_context* context,
                                                    uint64_t size, const focal_mesh_params* params,
                                                    focal_mesh** out_mesh);
 FOCAL_API focal_status focal_mesh_destroy(focal_mesh* mesh);
+
+/* A character of several parts (body, eyes, clothes) in the caller's memory as one mesh: vertices and triangles are numbered through, part after
+ * part, in all results. Rules and errors as focal_mesh_create; INVALID_ARGUMENT also for part_count 0, or more than 65,536. */
+FOCAL_API focal_status focal_mesh_create_parts(const focal_context* context,
+                                               const focal_mesh_desc* const* parts, uint64_t part_count,
+                                               const focal_mesh_params* params, focal_mesh** out_mesh);
+
+/* Where a part's vertices and triangles are among those of the mesh: the part's own number plus first_vertex or first_triangle. */
+typedef struct focal_mesh_part {
+  uint32_t struct_size;
+  uint32_t reserved;
+  uint64_t first_vertex, vertex_count;
+  uint64_t first_triangle, triangle_count;
+} focal_mesh_part;
+
+FOCAL_API focal_status focal_mesh_part_init(focal_mesh_part* part, size_t struct_size);
+
+/* Parts in the order in which they were given; of a file its triangle primitives, in node order; of focal_mesh_create one. Errors:
+ * INVALID_ARGUMENT (no such part). */
+FOCAL_API uint32_t focal_mesh_part_count(const focal_mesh* mesh);
+FOCAL_API focal_status focal_mesh_get_part(const focal_mesh* mesh, uint32_t index, focal_mesh_part* out_part);
 
 typedef struct focal_mesh_info {
   uint32_t struct_size;
@@ -483,6 +505,19 @@ FOCAL_API focal_status focal_model_load_memory(const focal_context* context, con
 FOCAL_API focal_status focal_model_save(const focal_model* model, const char* path);
 FOCAL_API focal_status focal_model_save_memory(const focal_model* model, focal_blob** out_blob);
 FOCAL_API focal_status focal_model_destroy(focal_model* model);
+
+/* Stock models come with focal: files NAME.focal. Folders, the first that has a name counts: focal_context_params.models_folder,
+ * those that the environment variable FOCAL_MODELS lists (separated by ":", on Windows ";"), and beside the library models,
+ * ../models, ../share/focal/models and ../../share/focal/models. They are looked up once a context, at the first of these calls, and
+ * sorted by name; names and paths live as long as the context. */
+FOCAL_API uint32_t focal_context_stock_count(const focal_context* context);
+FOCAL_API const char* focal_context_stock_name(const focal_context* context, uint32_t index);
+FOCAL_API const char* focal_context_stock_path(const focal_context* context, uint32_t index);
+
+/* Errors: FILE_NOT_FOUND (there is no stock model of this name; the message lists those there are), and those of
+ * focal_model_load. */
+FOCAL_API focal_status focal_model_load_stock(const focal_context* context, const char* name,
+                                              focal_model** out_model);
 
 typedef struct focal_model_info {
   uint32_t struct_size;
@@ -731,16 +766,18 @@ FOCAL_API focal_status focal_detection_write_segments_gltf(const focal_detection
 typedef int32_t focal_bone_names;
 enum {
   FOCAL_BONE_NAMES_AS_TRAINED = 0,
-  FOCAL_BONE_NAMES_VRM = 1,    /* VRM 1.0: hips, leftUpperArm */
-  FOCAL_BONE_NAMES_MIXAMO = 2, /* mixamorig:Hips, mixamorig:LeftArm */
-  FOCAL_BONE_NAMES_UNREAL = 3, /* pelvis, upperarm_l */
-  FOCAL_BONE_NAMES_RIGIFY = 4, /* DEF-spine, DEF-upper_arm.L */
-  FOCAL_BONE_NAMES_UNITY = 5   /* Hips, LeftUpperArm; Godot's too */
+  FOCAL_BONE_NAMES_VRM = 1,           /* VRM 1.0: hips, leftUpperArm */
+  FOCAL_BONE_NAMES_MIXAMO = 2,        /* mixamorig:Hips, mixamorig:LeftArm */
+  FOCAL_BONE_NAMES_UNREAL = 3,        /* pelvis, upperarm_l */
+  FOCAL_BONE_NAMES_RIGIFY = 4,        /* DEF-spine, DEF-upper_arm.L */
+  FOCAL_BONE_NAMES_UNITY = 5,         /* Hips, LeftUpperArm; Godot's too */
+  FOCAL_BONE_NAMES_RIGIFY_METARIG = 6 /* spine, upper_arm.L, thigh.L: what Rigify generates controls from */
 };
 
 typedef struct focal_skeleton_params {
   uint32_t struct_size;
-  /* Default AS_TRAINED. Bones that the convention does not know keep their names, with a warning */
+  /* Default AS_TRAINED. Bones are renamed by their roles, which follow from the words of their names and from where they hang, not
+     from one spelling; those without a role in the convention (a tail, a skirt) keep their names */
   focal_bone_names names;
   /* Names of your own, one for each joint in the model's order (see focal_model_joint_name); NULL, or NULL
      for one of them: as above. joint_name_count: the model's joint_count, or 0. */
@@ -763,6 +800,15 @@ typedef struct focal_skeleton_params {
   /* Joints that move one vertex, at most: 1 to 8, default 4. Above 4 the file has JOINTS_1 and WEIGHTS_1 too. */
   int32_t max_influences;
   int32_t reserved;
+  /* Joints that are known, as after a correction by hand: joint_count of the model or template x 3 positions, with NaN for a joint that
+     is to follow. They lie there to the bit; the others move with them, less the farther along the bones, and weights suit
+     them. fixed_joint_count: the joint_count, or 0 with NULL: none. */
+  const float* fixed_joints;
+  uint64_t fixed_joint_count;
+  /* 1: one more joint, "root" ("Root" where names are capital), on the ground below the first root and above all roots; it moves no vertex. It comes first:
+     other joints have one number more than in the model. Y is up. Default 0. */
+  int32_t ground_root;
+  int32_t reserved_2;
 } focal_skeleton_params;
 
 FOCAL_API focal_status focal_skeleton_params_init(focal_skeleton_params* params, size_t struct_size);
@@ -780,6 +826,34 @@ FOCAL_API focal_status focal_skeleton_create(const focal_detection* detection,
                                              const focal_skeleton_params* params, focal_task* task,
                                              focal_skeleton** out_skeleton);
 FOCAL_API focal_status focal_skeleton_destroy(focal_skeleton* skeleton);
+
+/* A skeleton that is there already, and is to stay: joint_count joints, parents first. */
+typedef struct focal_bind_params {
+  uint32_t struct_size;
+  int32_t max_influences; /* joints that move one vertex, at most: 1 to 8, default 4 */
+  /* NULL and 0: the joints of the skins of the mesh's own file; then the fields below are NULL too. A joint that is no
+     vertex's main one there (a pole, a target) moves none here, unless none is. Otherwise names, each non-empty */
+  const char* const* joint_names;
+  uint64_t joint_count;         /* at most 65,536 */
+  const int32_t* joint_parents; /* number of a joint before it; -1: a root */
+  const float* joint_positions; /* joint_count x 3 */
+  const float* joint_rotations; /* joint_count x 4, x y z w, as focal_joint.rotation; NULL: none is turned */
+  const float*
+      joint_tips; /* joint_count x 3: where the bone of a joint ends; NaN, or NULL: that follows from the body */
+  const int32_t* joint_moves; /* 0: the joint moves no vertex; NULL: all of them do */
+} focal_bind_params;
+
+FOCAL_API focal_status focal_bind_params_init(focal_bind_params* params, size_t struct_size);
+
+/* Weights for a skeleton that is there, from the body alone: heat of the bones, spread along the surface; small separate parts that
+ * ride on a bone are rigid. No model is needed; a part of a second. Joints stay as they are, to the bit: with those of the file
+ * focal_skeleton_write_gltf replaces JOINTS_n and WEIGHTS_n of its skinned meshes and changes nothing else. Nothing is judged: verdict
+ * GOOD, quality and confidences 1; a warning names joints that lie outside the body. params may be NULL (the joints of
+ * the mesh's own file), task too. Errors: INVALID_ARGUMENT (no file, or one without a skin; a joint after its child; no joint that moves
+ * anything), INVALID_FILE, CANCELLED. It keeps the mesh alive. */
+FOCAL_API focal_status focal_skeleton_bind(const focal_context* context, const focal_mesh* mesh,
+                                           const focal_bind_params* params, focal_task* task,
+                                           focal_skeleton** out_skeleton);
 
 /* Whether the skeleton can be used as it is. Warnings of a skeleton that is not GOOD say what speaks against it. */
 typedef int32_t focal_verdict;
@@ -832,6 +906,14 @@ FOCAL_API const char* focal_skeleton_warning(const focal_skeleton* skeleton, uin
 /* Writes the caller's own glTF, nothing lost, with the skeleton, a skin for every mesh it shows (see
  * focal_left_out), and the landmarks as focal_detection_write_gltf does. Same rules for the path, same errors. */
 FOCAL_API focal_status focal_skeleton_write_gltf(const focal_skeleton* skeleton, const char* path);
+
+/* Writes a VRM 1.0 avatar (.vrm or .glb): what focal_skeleton_write_gltf writes, with VRMC_vrm: the humanoid map by the joints' roles, and
+ * `meta`, a JSON object of VRM's meta data with at least "name" and "authors" (a list); "licenseUrl" and what else is required are
+ * filled in with VRM's defaults. VRM wants a T-pose: focal_skeleton_params.rest_pose with a model of such characters. Errors: those of
+ * focal_skeleton_write_gltf; INVALID_ARGUMENT (the skeleton lacks one of the 15 joints that VRM requires, which the message names; the file came as
+ * .gltf; meta without a name or authors), INVALID_FILE (meta is no JSON object). */
+FOCAL_API focal_status focal_skeleton_write_vrm(const focal_skeleton* skeleton, const char* meta,
+                                                const char* path);
 
 #ifdef __cplusplus
 }

@@ -69,6 +69,12 @@ class Context : public Owner<focal_context, focal_context_destroy> {
   focal_backend backend() const { return focal_context_backend(handle_); }
   std::string backend_reason() const { return focal_context_backend_reason(handle_); }
   int thread_count() const { return focal_context_thread_count(handle_); }
+  std::vector<std::string> stock_models() const {
+    std::vector<std::string> result;
+    for (uint32_t i = 0, count = focal_context_stock_count(handle_); i < count; ++i)
+      result.emplace_back(focal_context_stock_name(handle_, i));
+    return result;
+  }
 };
 
 class Task : public Owner<focal_task, focal_task_destroy> {
@@ -231,6 +237,13 @@ class TrainingSet : public Owner<focal_training_set, focal_training_set_destroy>
 
 class Model : public Owner<focal_model, focal_model_destroy> {
  public:
+  using Owner::Owner;
+  // One that comes with focal, by its name: see Context::stock_models.
+  static Model stock(const Context& context, const std::string& name) {
+    focal_model* model = nullptr;
+    check(focal_model_load_stock(context.get(), name.c_str(), &model));
+    return Model(model);
+  }
   Model(const TrainingSet& set, const focal_train_params* params = nullptr, Task* task = nullptr) {
     check(focal_model_train(set.get(), params, task ? task->get() : nullptr, &handle_));
   }

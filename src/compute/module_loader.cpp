@@ -5,6 +5,8 @@
 
 #include <filesystem>
 
+#include "base/library_folder.h"
+
 namespace focal {
 namespace {
 
@@ -108,9 +110,8 @@ std::string with_fallback(const Execution& execution, const std::function<void(c
 
 BackendFiles backend_files() {
   BackendFiles files;
-  Dl_info here{};
-  if (dladdr(reinterpret_cast<const void*>(&backend_files), &here) && here.dli_fname)
-    files.module = (std::filesystem::path(here.dli_fname).parent_path() / "libfocal_cuda.so").string();
+  if (const std::string folder = library_folder(); !folder.empty())
+    files.module = folder + "/libfocal_cuda.so";
   return files;
 }
 

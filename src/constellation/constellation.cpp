@@ -74,6 +74,7 @@ class Descent {
     const double others = std::max(1, t_.L - 1);
     unary_ = static_cast<float>(params.unary_weight);
     pair_ = static_cast<float>(params.pair_weight / others);
+    certain_ = static_cast<float>(params.certain_weight);
     handedness_ = static_cast<float>(2 * params.handedness_weight / (others * std::max(1, t_.L - 2)));
     for (int32_t l = 0; l < t_.L; ++l) choose(l, start[l]);
   }
@@ -96,7 +97,7 @@ class Descent {
     for (int32_t o = 0; o < t_.L; ++o) {
       if (o == l || chosen_[o] < 0) continue;
       row_x_[o] = c_.directions.x(candidate, chosen_[o]), row_y_[o] = c_.directions.y(candidate, chosen_[o]);
-      pairs += pair_cost(l, candidate, o);
+      pairs += weight_of(l, o) * pair_cost(l, candidate, o);
     }
     for (int32_t o = 0; o < t_.L; ++o) {
       if (o == l || chosen_[o] < 0) continue;
@@ -131,7 +132,7 @@ class Descent {
       sum += unary_ * c_.unary[chosen_[l]];
       for (int32_t o = 0; o < t_.L; ++o) {
         if (o == l || chosen_[o] < 0) continue;
-        if (o < l) sum += pair_ * pair_cost(l, chosen_[l], o);
+        if (o < l) sum += pair_ * weight_of(l, o) * pair_cost(l, chosen_[l], o);
         sum += 0.5 * handedness_ *
                handedness_cost(xs_(l, o), ys_(l, o), &xs_(l, 0), &ys_(l, 0), &t_.mean[t_.row(l, o)],
                                &t_.inverse[t_.row(l, o)], here_.data(), t_.padded);
@@ -176,6 +177,8 @@ class Descent {
   }
 
  private:
+  bool is_certain(int32_t l) const { return !c_.certain.empty() && c_.certain[l]; }
+  float weight_of(int32_t l, int32_t o) const { return is_certain(l) || is_certain(o) ? certain_ : 1; }
   float pair_cost(int32_t l, int32_t candidate, int32_t o) const {
     const float z = (c_.distance(candidate, chosen_[o]) - t_.distance_mean(l, o)) * t_.distance_inverse(l, o);
     return std::min(z * z, pair_clip);
@@ -183,8 +186,7 @@ class Descent {
 
   bool improve(int32_t l) {
     const Option option = best_option(l);
-    const bool certain = !c_.certain.empty() && c_.certain[l];
-    const int32_t best = certain || option.cost < absent_cost_ ? option.candidate : -1;
+    const int32_t best = is_certain(l) || option.cost < absent_cost_ ? option.candidate : -1;
     if (best == chosen_[l]) return false;
     choose(l, best);
     return true;
@@ -192,7 +194,7 @@ class Descent {
 
   const Tables& t_;
   const ConstellationCandidates& c_;
-  float unary_, pair_, handedness_;
+  float unary_, pair_, handedness_, certain_;
   float absent_cost_ = std::numeric_limits<float>::infinity();
   std::vector<int32_t> chosen_;
   RowMatrixf xs_, ys_;  // [at l][to o], chosen ones only

@@ -49,11 +49,13 @@ struct ConstellationCandidates {
   std::vector<float> unary;  // 0 for the best vote of its landmark, 1 for none
   RowMatrixf distance;       // all x all, of sqrt(area)
   TangentDirections directions;
-  std::vector<char> certain = {};  // per landmark: never left out; empty: none is
+  std::vector<char> certain = {};  // per landmark: known, never left out; empty: none is
 };
 
 struct ConstellationParams {
   double unary_weight = 5, pair_weight = 4, handedness_weight = 2;
+  double certain_weight =
+      4;  // of distances to a landmark that is certain, against those between others: docs/accuracy.md
   double absent_cost = 7;  // of leaving a landmark out, against all that a place costs
   int32_t restarts = 32;
   double energy_margin = 12;  // of the other choices above the best

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "gltf/limits.h"
@@ -131,6 +132,17 @@ class GltfDocument {
   // stays. Data goes into the BIN chunk, or into a data: URI in a .gltf.
   // Throws invalid_argument (a rig of another mesh, more than 65,536 joints, not finite).
   void add_skin(std::span<GltfPrimitive> primitives, const GltfRig& rig);
+
+  // Other weights for the primitives that have a skin; nodes, skins and bind matrices stay. rig: of rig() with other influences. What a
+  // joint moves that a primitive's skin lacks goes to the nearest joint above it that the skin has, or to the other joints of the vertex. A vertex
+  // without weights is moved by the first joint of its skin.
+  void replace_weights(std::span<const GltfPrimitive> primitives, const Rig& rig);
+
+  // Adds the humanoid map and meta data of a VRM 1.0 avatar, in place of what was there. joints: of rig(), or those of a skin by their names.
+  // roles: per joint the name of VRM's human bone, or empty. meta: a JSON object with "name" and "authors"; "licenseUrl" is filled in.
+  // https://github.com/vrm-c/vrm-specification, VRMC_vrm-1.0. Throws invalid_argument (a .gltf, a human bone that VRM requires is missing,
+  // meta without a name or authors), invalid_file (meta is no JSON object).
+  void add_vrm(const std::vector<Joint>& joints, std::span<const std::string> roles, std::string_view meta);
 
   // Adds
   //  - a scene root "focal_landmarks" with one child a landmark: its name, its translation, extras.focal;

@@ -102,6 +102,20 @@ bool suits(const AnalysisParams& made, const AnalysisParams& wanted) {
          made.distance == wanted.distance;
 }
 
+// A correction takes no landmark away: one that is absent with the fixed ones, and not without them, is uncertain.
+void keep_present(const std::shared_ptr<const LandmarkModel>& model, const SurfaceAnalysis& analysis,
+                  const Placement& placement, const DetectParams& params, const Execution& execution,
+                  std::vector<DetectedLandmark>& landmarks) {
+  const auto is_absent = [](const DetectedLandmark& one) { return one.status == LandmarkStatus::absent; };
+  if (params.fixed.empty() || std::none_of(landmarks.begin(), landmarks.end(), is_absent)) return;
+  DetectParams alone = params;
+  alone.fixed.clear(), alone.keep_votes = false;
+  const Detection before = detect(model, analysis, alone, execution);
+  for (size_t l = 0; l < landmarks.size(); ++l)
+    if (is_absent(landmarks[l]) && placement.vertex[l] >= 0 && !is_absent(before.landmarks[l]))
+      landmarks[l].status = LandmarkStatus::uncertain;
+}
+
 // What is kept beyond the call takes no memory of the GPU, and cannot fail by it.
 void leave_backend(SurfaceAnalysis& analysis) {
   if (analysis.on_backend) analysis.on_backend->close();
@@ -198,6 +212,7 @@ Detection detect(std::shared_ptr<const LandmarkModel> model, const SurfaceAnalys
   const Judgement judgement =
       paper ? Judgement{} : judge(model->calibration, placement.evidence, placement.map_residual);
   result.landmarks = landmarks_at(*model, analysis, placement, judgement, params, execution);
+  keep_present(model, analysis, placement, params, execution, result.landmarks);
   result.places = placement.point;
   for (size_t l = 0; l < result.landmarks.size(); ++l)
     if (placement.vertex[l] < 0 || result.landmarks[l].status == LandmarkStatus::absent)

@@ -34,7 +34,7 @@ struct Source {
 };
 
 Source source_of(const RayCaster& rays, const Vector3& vertex, const Vector3& normal,
-                 const std::vector<Bone>& bones) {
+                 const std::vector<Bone>& bones, double hottest) {
   struct Candidate {
     double distance;
     const Bone* bone;
@@ -47,7 +47,7 @@ Source source_of(const RayCaster& rays, const Vector3& vertex, const Vector3& no
     return one.distance < 2 * near[0].distance + least_distance &&
            sees(rays, vertex, normal, nearest_on(*one.bone, vertex));
   });
-  const double strength = seen == near.end() ? heat_of_hidden : 1;
+  const double strength = hottest * (seen == near.end() ? heat_of_hidden : 1);
   const double nearest = seen == near.end() ? near[0].distance : seen->distance;
   Source source;
   for (const Candidate& one : near) {
@@ -63,15 +63,16 @@ Source source_of(const RayCaster& rays, const Vector3& vertex, const Vector3& no
 }  // namespace
 
 RowMatrixf bone_heat_weights(const SurfaceAnalysis& analysis, const RayCaster& rays,
-                             const std::vector<Bone>& bones, int32_t joint_count,
-                             const Execution& execution) {
+                             const std::vector<Bone>& bones, int32_t joint_count, const Execution& execution,
+                             double strength) {
   if (bones.empty()) throw Error(Status::invalid_argument, "the skeleton has no bones", "give it joints");
   const TriangleMesh& mesh = analysis.surface();
   const Eigen::Index n = mesh.vertex_count();
   const MatrixX3 normals = area_normals(mesh).rowwise().normalized();
   std::vector<Source> sources(static_cast<size_t>(n));
   parallel_for(execution, n, [&](int64_t v) {
-    sources[v] = source_of(rays, mesh.positions.row(v).transpose(), normals.row(v).transpose(), bones);
+    sources[v] =
+        source_of(rays, mesh.positions.row(v).transpose(), normals.row(v).transpose(), bones, strength);
   });
   // (L + M H) w = M H p, the paper's -Laplacian w + H w = H p times the mass of each vertex.
   SparseMatrix A = analysis.operators.L;

@@ -15,8 +15,9 @@ struct Bone {
 
 // vertices of the analysed surface x joints, each row of sum 1: heat of the nearest bone that a vertex sees inside the body,
 // spread along the surface, so that limbs that touch do not share it. I. Baran, J. Popović, "Automatic Rigging and Animation
-// of 3D Characters", 2007. Throws invalid_argument without bones.
+// of 3D Characters", 2007. strength: of the heat against its spreading; weights are the harder the larger it is. Throws invalid_argument without bones.
 RowMatrixf bone_heat_weights(const SurfaceAnalysis& analysis, const RayCaster& rays,
-                             const std::vector<Bone>& bones, int32_t joint_count, const Execution& execution);
+                             const std::vector<Bone>& bones, int32_t joint_count, const Execution& execution,
+                             double strength = 1);
 
 }  // namespace focal

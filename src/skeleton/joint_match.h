@@ -9,8 +9,7 @@ namespace focal {
 enum class Spelling { as_written, without_prefix, without_any_prefix, humanoid };
 
 // The names of one file as they are compared. A file in which two joints would get one name keeps its own. humanoid: without prefixes,
-// and what one of the conventions (VRM, Mixamo, Unreal, Rigify, its metarig, Unity, Godot, 3ds Max Biped, Daz, CC and iClone, Quaternius,
-// KayKit) knows by its VRM name: the convention that knows most names of the file.
+// and what a convention of bone_names.h knows by its VRM name.
 std::vector<std::string> spelled(const std::vector<std::string>& names, Spelling spelling);
 
 struct JointMatch {

@@ -218,11 +218,22 @@ void settle_twists(const LandmarkModel& model, const std::vector<Opinion>& opini
       joints.turn[j] = Eigen::AngleAxisd(by[j], way[j]).toRotationMatrix() * joints.turn[j];
 }
 
+// Fixed joints, in the caller's coordinates, and those that follow them.
+void hold_fixed(const std::vector<SkeletonJoint>& skeleton, const FixedJoints& fixed,
+                const PreparedMesh& mesh, Joints& joints) {
+  FixedJoints inside(fixed.size());
+  for (size_t j = 0; j < fixed.size(); ++j)
+    if (fixed[j]) inside[j] = (*fixed[j] - mesh.centre) / mesh.scale, joints.confidence[j] = 1;
+  std::vector<int32_t> parent;
+  for (const SkeletonJoint& joint : skeleton) parent.push_back(joint.parent);
+  follow(inside, fixed_joint_reach, {parent, joints.place, joints.tip, joints.turn});
+}
+
 // A joint that moves vertices belongs inside the body; controls may lie anywhere.
-void draw_inside(Joints& joints, const RowMatrixf& weights, TriangleMesh surface) {
+void draw_inside(Joints& joints, const FixedJoints& fixed, const RowMatrixf& weights, TriangleMesh surface) {
   const RayCaster rays(std::move(surface));
   for (size_t j = 0; j < joints.place.size(); ++j)
-    if (weights.col(static_cast<Eigen::Index>(j)).maxCoeff() > 0)
+    if ((fixed.empty() || !fixed[j]) && weights.col(static_cast<Eigen::Index>(j)).maxCoeff() > 0)
       joints.place[j] = drawn_inside(rays, joints.place[j]);
 }
 
@@ -289,7 +300,7 @@ void add_fits(const BodyFit& fit, const LandmarkModel& model, const Proxy& proxy
 }  // namespace
 
 CharacterRig transfer_rig(const Detection& detection, const Execution& execution, bool symmetric,
-                          int32_t influences) {
+                          int32_t influences, const FixedJoints& fixed) {
   const LandmarkModel& model = *detection.model;
   execution.begin_stage("maps", 0, 0.7);
   std::vector<ShapeMap> maps = maps_of(detection, execution);
@@ -324,11 +335,12 @@ CharacterRig transfer_rig(const Detection& detection, const Execution& execution
   weight.clear();
   for (const FittedShape& one : fit.shapes) weight.push_back(one.share);
   settle_twists(model, opinions, joints);
+  hold_fixed(model.skeleton, fixed, *detection.mesh, joints);
   warn_of_absent(detection, result.warnings);
   execution.begin_stage("weights", 0.8, 1);
   const PlacedSkeleton placed = on_analysed(model.skeleton, joints, analysis.proxy);
   const SurfaceWeights weights = taught_weights({model, maps, weight}, analysis, placed, execution);
-  draw_inside(joints, weights.weights, {vertices, analysis.surface().triangles});
+  draw_inside(joints, fixed, weights.weights, {vertices, analysis.surface().triangles});
   const PreparedMesh& full = *detection.mesh;
   const auto to_caller = [&](const Vector3& p) -> Vector3 { return full.centre + full.scale * p; };
   for (size_t j = 0; j < model.skeleton.size(); ++j) {
@@ -342,6 +354,7 @@ CharacterRig transfer_rig(const Detection& detection, const Execution& execution
   put_influences_by_parts(weights, placed, analysis, influences, result.rig, execution);
   refine_details(detection, influences, result, execution);
   if (symmetric) make_bones_symmetric(result);
+  follow(fixed, fixed_joint_reach * full.scale, result);  // what details and symmetry have moved
   result.rest = rest_pose(model, result.rig.joints);
   return result;
 }

@@ -251,6 +251,15 @@ void turn_along_bones(std::vector<Joint>& joints, const std::vector<Vector3>& ti
   }
 }
 
+// Before there are tips: what would end there follows from the joints.
+void hold_fixed(const FixedJoints& fixed, const ToCaller& to_caller, CharacterRig& character) {
+  FixedJoints inside(fixed.size());
+  for (size_t j = 0; j < fixed.size(); ++j)
+    if (fixed[j]) inside[j] = (*fixed[j] - to_caller.offset) / to_caller.scale;
+  for (const Joint& joint : character.rig.joints) character.tip.push_back(place_of(joint));
+  follow(inside, fixed_joint_reach, character);
+}
+
 std::vector<Matrix4> rest_of(const SkeletonTemplate& skeleton, const std::vector<Joint>& joints) {
   std::vector<Matrix4> rest;
   if (std::none_of(skeleton.joints.begin(), skeleton.joints.end(), [](const auto& j) { return j.rest; }))
@@ -270,7 +279,7 @@ std::vector<Matrix4> rest_of(const SkeletonTemplate& skeleton, const std::vector
 }  // namespace
 
 CharacterRig rig_by_template(const SkeletonTemplate& skeleton, const Detection& detection,
-                             const Execution& execution, int32_t influences) {
+                             const Execution& execution, int32_t influences, const FixedJoints& fixed) {
   if (!detection.analysis)
     throw Error(Status::invalid_argument, "the detection keeps no analysis of the mesh",
                 "detect on the mesh itself");
@@ -280,6 +289,7 @@ CharacterRig rig_by_template(const SkeletonTemplate& skeleton, const Detection& 
   Placer placer(skeleton, detection);
   placer.place(result);
   if (skeleton.symmetric) make_bones_symmetric(result);
+  hold_fixed(fixed, ToCaller(analysis), result);
   execution.begin_stage("weights", 0.3, 1);
   auto& joints = result.rig.joints;
   const auto count = static_cast<int32_t>(joints.size());
@@ -302,6 +312,8 @@ CharacterRig rig_by_template(const SkeletonTemplate& skeleton, const Detection& 
   const ToCaller to_caller(analysis);
   for (Joint& joint : joints) joint.bind.topRightCorner<3, 1>() = to_caller(place_of(joint));
   for (Vector3& tip : result.tip) tip = to_caller(tip);
+  for (size_t j = 0; j < fixed.size(); ++j)
+    if (fixed[j]) joints[j].bind.topRightCorner<3, 1>() = *fixed[j];  // to the bit
   result.rest = rest_of(skeleton, joints);
   return result;
 }

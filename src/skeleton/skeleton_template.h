@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "skeleton/character_rig.h"
+#include "skeleton/fixed_joints.h"
 
 namespace focal {
 
@@ -24,9 +25,10 @@ struct SkeletonTemplate {
 };
 
 // Joints lie inside the body; those whose landmarks are all absent at their parents, with a warning. Weights are those of bone
-// heat. A joint's y axis points along its bone. Throws invalid_argument (a name that is empty, given twice or not known, none or
+// heat. A joint's y axis points along its bone. fixed: in the coordinates of mesh->source. Throws invalid_argument (a name that is empty, given twice or not known, none or
 // several of the three places, places that follow from each other in a circle; a detection without an analysis).
 CharacterRig rig_by_template(const SkeletonTemplate& skeleton, const Detection& detection,
-                             const Execution& execution, int32_t influences = most_influences);
+                             const Execution& execution, int32_t influences = most_influences,
+                             const FixedJoints& fixed = {});
 
 }  // namespace focal

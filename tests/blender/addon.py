@@ -1,9 +1,11 @@
 """The add-on without a window: from the zip to a rigged character that comes back from a glTF file."""
 import os
+import shutil
 import sys
 
 import bpy
 import numpy
+from mathutils import Vector
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from common import (MODULE, OUT, activate, check, empty_scene, install, load_character, refused, size, step,  # noqa: E402
@@ -114,6 +116,9 @@ def test_refusals():
     obj.modifiers.clear()
     path, settings.model_path = settings.model_path, "/nowhere/none.focal"
     check("no model" in refused(bpy.ops.focal.detect), "no model")
+    settings.model_path = "dragon"
+    check("no stock model 'dragon'" in refused(bpy.ops.focal.detect), "no stock model")
+    check("mine" in refused(bpy.ops.focal.detect), "the stock models are named")
     settings.model_path = path
     check("was not learned from rigged characters" in refused(bpy.ops.focal.rig), "no skeleton")
     twin = bpy.data.objects.new("twin", obj.data)
@@ -217,10 +222,12 @@ def test_rig():
     test_bend(obj, armature)
     test_file(obj, armature)
     activate(obj)
-    settings.replace_rig = True
+    settings.replace_rig, old = True, armature.name
     check(bpy.ops.focal.rig() == {"FINISHED"} and len(obj.modifiers) == 1, "replaced")
     settings.replace_rig = False
-    bpy.data.objects.remove(armature)
+    armatures = [o.name for o in bpy.data.objects if o.type == "ARMATURE"]
+    check(len(armatures) == 1 and obj.modifiers[0].object.name in armatures, f"'{old}' is gone: {armatures}")
+    bpy.data.objects.remove(bpy.data.objects[armatures[0]])
     step("rig replaced")
 
 
@@ -297,6 +304,69 @@ def test_rigs():
     step("rigged by it")
 
 
+def in_two(obj):
+    """The object with its upper half as another object."""
+    activate(obj)
+    middle = numpy.mean([v.co.z for v in obj.data.vertices])
+    for polygon in obj.data.polygons:
+        polygon.select = polygon.center.z > middle
+    for vertex in obj.data.vertices:
+        vertex.select = vertex.co.z > middle
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.separate(type="SELECTED")
+    bpy.ops.object.mode_set(mode="OBJECT")
+    other = next(o for o in bpy.context.selected_objects if o != obj)
+    bpy.context.view_layer.update()
+    other.matrix_world.translation.x += 1  # each object has an origin of its own
+    for vertex in other.data.vertices:
+        vertex.co = other.matrix_world.inverted() @ (other.matrix_world @ vertex.co - Vector((1, 0, 0)))
+    return other
+
+
+def test_character():
+    """A character of two objects, by a stock model: one armature, groups on both; then other weights for bones that were moved."""
+    settings = bpy.context.scene.focal
+    shutil.copy(settings.model_path, os.path.join(OUT, "models", "mine.focal"))
+    bpy.ops.focal.use_model(name="mine")
+    obj = load_character(OTHERS[2])
+    other = in_two(obj)
+    for one in (other, obj):
+        one.select_set(True)
+    bpy.context.view_layer.objects.active = obj
+    settings.bone_names, settings.ground_root = "RIGIFY_METARIG", True
+    check(bpy.ops.focal.rig() == {"FINISHED"}, "two objects are rigged")
+    armature = obj.modifiers[0].object
+    check(other.modifiers[0].object == armature and other.parent == armature, "one armature")
+    check({"root", "upper_arm.L", "thigh.L", "spine"} <= {b.name for b in armature.data.bones}, "the metarig's names")
+    check(not obj.focal.landmarks and not other.focal.landmarks, "a model of rigs keeps its landmarks to itself")
+    check(weight_of(other, "spine.006") > 100 and weight_of(obj, "spine.006") == 0, "the head moves the upper half only")
+    check(weight_of(obj, "foot.L") > 10 and weight_of(other, "foot.L") == 0, "the foot moves the lower half only")
+    places = {b.name: tuple(b.head_local) for b in armature.data.bones}
+    obj.vertex_groups.clear(), other.vertex_groups.clear()
+    for one in (other, obj):
+        one.select_set(True)
+    bpy.context.view_layer.objects.active = obj
+    check(bpy.ops.focal.bind() == {"FINISHED"}, "weights only")
+    check(places == {b.name: tuple(b.head_local) for b in armature.data.bones}, "bones stay to the bit")
+    check(weight_of(obj, "foot.L") > 10 and weight_of(other, "foot.L") == 0, "weights are there again")
+    for vertex in obj.data.vertices:
+        check(abs(sum(g.weight for g in vertex.groups) - 1) < 1e-3, "weights sum to 1")
+    activate(other)
+    check("has no armature" in refused(lambda: (other.modifiers.clear(), setattr(other, "parent", None),
+                                                bpy.ops.focal.bind())[-1]), "bind needs an armature")
+    settings.bone_names, settings.ground_root = "RIGIFY", False
+    settings.model_path = os.path.join(OUT, "rig.focal")
+    for one in (obj, other, armature):
+        bpy.data.objects.remove(one)
+    step("a character of two objects")
+
+
+def weight_of(obj, bone):
+    """The sum of a bone's weights on an object."""
+    group = obj.vertex_groups.get(bone)
+    return 0 if group is None else sum(g.weight for v in obj.data.vertices for g in v.groups if g.group == group.index)
+
+
 def scene_state():
     """What undo must bring back."""
     return {o.name: (o.type, len(o.focal.landmarks), [tuple(round(x, 5) for x in m.position) for m in o.focal.landmarks],
@@ -354,10 +424,19 @@ def test_corrections():
     corrections.test(bpy.data.objects[OTHERS[0]])
 
 
+def offer_stock_model():
+    """Looked up once: the file is there before, what it holds comes later."""
+    os.makedirs(os.path.join(OUT, "models"))
+    with open(os.path.join(OUT, "models", "mine.focal"), "w", encoding="ascii") as file:
+        file.write("not yet")
+    os.environ["FOCAL_MODELS"] = os.path.join(OUT, "models")
+
+
 def main():
+    offer_stock_model()
     for test in (test_library_missing, test_marks, test_list, test_training, test_measure, test_refusals,
                  test_detection, test_corrections, test_votes_and_parts, test_rig, test_collection, test_rigs,
-                 test_undo_and_file, test_off_and_on):
+                 test_character, test_undo_and_file, test_off_and_on):
         test()
     print("all passed")
 

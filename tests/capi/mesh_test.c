@@ -384,11 +384,53 @@ static void check_wrap(const shape* body) {
   focal_mesh_destroy(as_is), focal_mesh_destroy(wrapped), focal_mesh_destroy(shown);
 }
 
+/* Two parts as one mesh: numbered through. */
+static void check_parts(const shape* body) {
+  shape other = shape_create(6, 0);
+  for (uint64_t v = 0; v < other.vertex_count; ++v) other.positions[3 * v] += 0.5f;
+  focal_mesh_desc first = shape_desc(body), second = shape_desc(&other), bad = second;
+  const focal_mesh_desc *const both[] = {&first, &second}, *const wrong[] = {&first, &bad},
+                               *const missing[] = {&first, NULL};
+  focal_mesh *mesh = NULL, *none = NULL;
+  focal_mesh_info info;
+  focal_mesh_part part;
+  CHECK_OK(focal_mesh_create_parts(context, both, 2, NULL, &mesh));
+  CHECK_OK(focal_mesh_info_init(&info, sizeof info));
+  CHECK_OK(focal_mesh_get_info(mesh, &info));
+  CHECK(info.vertex_count == body->vertex_count + other.vertex_count && info.component_count == 2);
+  CHECK(focal_mesh_part_count(mesh) == 2 && focal_mesh_part_count(NULL) == 0);
+  CHECK_OK(focal_mesh_part_init(&part, sizeof part));
+  CHECK_OK(focal_mesh_get_part(mesh, 1, &part));
+  CHECK(part.first_vertex == body->vertex_count && part.vertex_count == other.vertex_count);
+  CHECK(part.first_triangle == body->index_count / 3 && part.triangle_count == other.index_count / 3);
+  const uint32_t* triangles = focal_mesh_triangles(mesh) + 3 * part.first_triangle;
+  CHECK(triangles[4] == other.indices[4] + part.first_vertex);
+  CHECK(memcmp(focal_mesh_positions(mesh) + 3 * part.first_vertex, other.positions,
+               other.vertex_count * 12) == 0);
+  CHECK_REFUSED(focal_mesh_get_part(mesh, 2, &part), FOCAL_ERROR_INVALID_ARGUMENT, "no number 2");
+  focal_mesh_destroy(mesh);
+  CHECK_REFUSED(focal_mesh_create_parts(context, both, 0, NULL, &none), FOCAL_ERROR_INVALID_ARGUMENT,
+                "part_count is 0");
+  CHECK_REFUSED(focal_mesh_create_parts(context, NULL, 2, NULL, &none), FOCAL_ERROR_INVALID_ARGUMENT,
+                "parts");
+  CHECK_REFUSED(focal_mesh_create_parts(context, missing, 2, NULL, &none), FOCAL_ERROR_INVALID_ARGUMENT,
+                "focal_mesh_desc is NULL");
+  bad.vertex_count = other.vertex_count - 1;
+  CHECK_REFUSED(focal_mesh_create_parts(context, wrong, 2, NULL, &none), FOCAL_ERROR_INVALID_MESH,
+                "names vertex");
+  bad = second, bad.vertex_count = UINT64_MAX - 2;
+  CHECK_REFUSED(focal_mesh_create_parts(context, wrong, 2, NULL, &none), FOCAL_ERROR_UNSUPPORTED,
+                "more vertices or triangles");
+  CHECK(none == NULL);
+  shape_destroy(&other);
+}
+
 int main(void) {
   shape body = shape_create(8, 0);
   CHECK_OK(focal_context_create(NULL, &context));
   check_good(&body);
   check_bad_arrays(&body);
+  check_parts(&body);
   check_stride(&body);
   check_flipped(&body);
   check_lenient(&body);

@@ -231,9 +231,9 @@ static void check_templates(void) {
   CHECK_OK(focal_skeleton_get_joint(skeleton, 0, &joint));
   CHECK(strcmp(joint.name, "first") == 0);
   CHECK_OK(focal_skeleton_get_joint(skeleton, 1, &joint));
-  CHECK(strcmp(joint.name, "b.L") == 0); /* unknown to the convention: kept, and said so */
+  CHECK(strcmp(joint.name, "b.L") == 0); /* none has a role in the convention: kept, and said so */
   CHECK(focal_skeleton_warning(skeleton, 0) &&
-        strstr(focal_skeleton_warning(skeleton, 0), "no name in this convention"));
+        strstr(focal_skeleton_warning(skeleton, 0), "no bone has a role"));
   check_written(skeleton);
   focal_skeleton_destroy(skeleton), skeleton = NULL;
 

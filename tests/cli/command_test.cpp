@@ -48,7 +48,8 @@ TEST_CASE("every verb explains itself and has the common options") {
   CHECK(focal("--version").out.starts_with("focal "));
   const Run all = focal("--help");
   CHECK(all.status == 0);
-  for (const std::string verb : {"train", "detect", "eval", "cross-validate", "info", "convert", "doctor"}) {
+  for (const std::string verb :
+       {"train", "detect", "eval", "cross-validate", "info", "convert", "models", "doctor"}) {
     CAPTURE(verb);
     CHECK(all.out.find("\n  " + verb) != std::string::npos);
     const Run run = focal(verb + " --help");
@@ -63,7 +64,8 @@ TEST_CASE("every verb explains itself and has the common options") {
 
 TEST_CASE("doctor, info and convert: keys") {
   const json doctor = focal_json("doctor --threads 1");
-  CHECK(keys_of(doctor) == Keys{"version", "backend", "threads", "limits", "peak_memory_bytes"});
+  CHECK(keys_of(doctor) ==
+        Keys{"version", "backend", "threads", "limits", "stock_models", "peak_memory_bytes"});
   CHECK(doctor["threads"]["used"] == 1);
   const ScratchFolder scratch;
   write_tiny_set(scratch, 1, 0);

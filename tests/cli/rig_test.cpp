@@ -239,4 +239,73 @@ TEST_CASE("info and convert: what is analysed, and the wrap to look at") {
   CHECK(words.out.find("closed surface round") != std::string::npos);
   check_fails("convert " + mesh + " " + (scratch / "wrap.gltf"), ".glb");
 }
+
+TEST_CASE("rig: weights only, the joints of the file stay to the bit") {
+  const ScratchFolder scratch;
+  const std::string before = humanoids().teacher(), after = scratch / "kept.glb";
+  const json report = focal_json("rig --keep-skeleton " + before + " -o " + after);
+  CHECK(keys_of(report) == Keys{"mesh", "output", "joints", "weights", "warnings", "seconds"});
+  CHECK(report["joints"].size() == humanoids().trained["joints"].size());
+  CHECK(report["weights"]["unweighted_vertices"] == 0);
+  const json old_file = document_of(before), new_file = document_of(after);
+  for (const char* kept : {"nodes", "skins", "scenes", "animations"}) CHECK(old_file[kept] == new_file[kept]);
+  CHECK(old_file["meshes"] != new_file["meshes"]);
+  check_fails("rig --keep-skeleton " + humanoids().mesh() + " -o " + after, "no skin");
+  check_fails("rig --keep-skeleton model.focal " + before + " -o " + after, "needs no model");
+  check_fails("rig --keep-skeleton " + before + " -o " + after + " --symmetric", "--symmetric");
+}
+
+TEST_CASE("rig: a pinned joint lies where it is put") {
+  const ScratchFolder scratch;
+  const std::string rig =
+      "rig " + humanoids().model() + " " + humanoids().mesh() + " --keep-failed -o " + (scratch / "out.glb");
+  const auto joint = [](const json& report, const std::string& name) {
+    for (const json& one : report["joints"])
+      if (one["name"] == name) return one;
+    return json();
+  };
+  const json pinned = focal_json(rig + " --pin leftLowerArm=0.5,1.25,0.125 --pin head=0,1.5,0");
+  CHECK(joint(pinned, "leftLowerArm")["position"] == json({0.5, 1.25, 0.125}));
+  CHECK(joint(pinned, "leftLowerArm")["confidence"] == 1);
+  CHECK(joint(pinned, "head")["position"] == json({0, 1.5, 0}));
+  check_fails(rig + " --pin noSuchJoint=0,0,0", "noSuchJoint");
+  check_fails(rig + " --pin head=0,0", "head=0,0");
+}
+
+TEST_CASE("stock models: used by name, listed, and named in the first error") {
+  const ScratchFolder scratch;
+  const std::string copy = scratch / "models/tiny.focal";
+  std::filesystem::create_directories(scratch / "models");
+  std::filesystem::copy_file(humanoids().model(), copy);
+  scratch.write("models/broken.focal", "no model");
+  const std::string variable = "FOCAL_MODELS='" + (scratch / "models") + "'";
+  const auto list = json::parse(focal("models --json", variable).out)["models"];
+  const auto of_name = [](const json& models, const std::string& name) {
+    for (const json& one : models)
+      if (one["name"] == name) return one;
+    return json();
+  };
+  CHECK(of_name(list, "tiny")["joints"] == humanoids().trained["joints"]);
+  CHECK(of_name(list, "tiny")["landmarks"] == humanoids().trained["landmarks"]);
+  CHECK(of_name(list, "tiny")["file"] == copy);
+  CHECK(of_name(list, "broken").contains("error"));
+  CHECK(of_name(json::parse(focal("doctor --json", variable).out)["stock_models"], "tiny")["file"] == copy);
+  CHECK(focal("doctor", variable).out.find("tiny") != std::string::npos);
+
+  const std::string out = scratch / "out.glb";
+  CHECK(focal("rig tiny " + humanoids().mesh() + " --keep-failed --quiet -o " + out, variable)
+            .err.find("no model") == std::string::npos);
+  CHECK(std::filesystem::exists(out));
+  CHECK(json::parse(focal("info tiny --json", variable).out)["kind"] == "model");
+
+  Run wrong = focal("rig dragon " + humanoids().mesh() + " -o " + out, variable);
+  CHECK(wrong.status == 1);
+  CHECK(wrong.err.find("no model file or stock model 'dragon'") != std::string::npos);
+  CHECK(wrong.err.find("tiny") != std::string::npos);
+  wrong = focal("rig " + humanoids().mesh() + " -o " + out, variable);
+  CHECK(wrong.status == 2);
+  CHECK(wrong.err.find("tiny") != std::string::npos);
+  CHECK(focal("info dragon", variable).err.find("cannot open 'dragon'") != std::string::npos);
+  check_fails("rig no/such.focal " + humanoids().mesh() + " -o " + out, "no/such.focal");
+}
 #endif

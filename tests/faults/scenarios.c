@@ -303,7 +303,7 @@ static focal_status run_skeleton(const fixture* f, uint64_t* digest) {
   focal_skeleton* skeleton = NULL;
   focal_skeleton_params params;
   TRY(focal_skeleton_params_init(&params, sizeof params));
-  params.animations = f->rigged, params.symmetric = 1, params.rest_pose = 1;
+  params.animations = f->rigged, params.symmetric = 1, params.rest_pose = 1, params.ground_root = 1;
   TRY(focal_skeleton_create(f->rig_detection, &params, NULL, &skeleton));
   return write_skeleton(f, digest, skeleton);
 }
@@ -319,6 +319,54 @@ static focal_status run_template(const fixture* f, uint64_t* digest) {
       "{\"name\":\"tail\",\"parent\":\"root\",\"surface\":[\"tail\"]}]}";
   TRY(focal_skeleton_create(f->detection, &params, NULL, &skeleton));
   return write_skeleton(f, digest, skeleton);
+}
+
+/* Weights for the joints of the mesh's own file, and for joints of the caller's. */
+static focal_status run_bind(const fixture* f, uint64_t* digest) {
+  static const char* const names[] = {"root", "left"};
+  static const int32_t parents[] = {-1, 0};
+  static const float places[] = {0, 0, 0, 0.4f, 0, 0};
+  focal_skeleton* skeleton = NULL;
+  focal_bind_params params;
+  TRY(focal_skeleton_bind(f->context, f->rigged, NULL, NULL, &skeleton));
+  TRY(write_skeleton(f, digest, skeleton));
+  TRY(focal_bind_params_init(&params, sizeof params));
+  params.joint_names = names, params.joint_parents = parents, params.joint_positions = places;
+  params.joint_count = 2, params.max_influences = 8;
+  TRY(focal_skeleton_bind(f->context, f->mesh, &params, NULL, &skeleton));
+  return write_skeleton(f, digest, skeleton);
+}
+
+static focal_status run_stock(const fixture* f, uint64_t* digest) {
+  focal_context* context = NULL;
+  focal_context_params params;
+  focal_model* model = NULL;
+  TRY(focal_model_save(f->model, fixture_path(f, "stock.focal")));
+  TRY(focal_context_params_init(&params, sizeof params));
+  params.models_folder = f->folder;
+  TRY(focal_context_create(&params, &context));
+  const focal_status status = focal_model_load_stock(context, "stock", &model);
+  if (status == FOCAL_OK) {
+    const uint32_t known = focal_model_joint_count(model);
+    *digest = digest_bytes(*digest, &known, sizeof known);
+  }
+  focal_model_destroy(model);
+  focal_context_destroy(context);
+  remove(fixture_path(f, "stock.focal"));
+  return status;
+}
+
+static focal_status run_parts(const fixture* f, uint64_t* digest) {
+  focal_mesh* mesh = NULL;
+  focal_mesh_part part;
+  const focal_mesh_desc desc = shape_desc(&f->body);
+  const focal_mesh_desc* const parts[] = {&desc, &desc};
+  TRY(focal_mesh_create_parts(f->context, parts, 2, NULL, &mesh));
+  focal_status status = focal_mesh_part_init(&part, sizeof part);
+  if (status == FOCAL_OK) status = focal_mesh_get_part(mesh, 1, &part);
+  if (status == FOCAL_OK) *digest = digest_bytes(*digest, &part, sizeof part);
+  focal_mesh_destroy(mesh);
+  return status;
 }
 
 const scenario scenarios[] = {
@@ -344,6 +392,9 @@ const scenario scenarios[] = {
     {"segments", run_segment},
     {"skeleton", run_skeleton},
     {"skeleton by a template", run_template},
+    {"weights for a skeleton that is there", run_bind},
+    {"stock models", run_stock},
+    {"mesh of parts", run_parts},
 };
 const size_t scenario_count = sizeof scenarios / sizeof *scenarios;
 

@@ -16,6 +16,11 @@ def gltf_json(data):
 
 
 class Landmarks(Case):
+    def test_repr(self):
+        found = detection()
+        self.assertRegex(repr(found), r"^<focal\.Detection \d+ of 3 landmarks, category fit [01]\.\d\d>$")
+        self.assertRegex(repr(mesh()), r"^<focal\.Mesh \d+ vertices, \d+ triangles>$")
+
     def test_found_where_they_are(self):
         truth = dict(zip(NAMES, shape(16, 0.12)[2]))
         found, surface = detection(), mesh()

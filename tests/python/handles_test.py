@@ -14,11 +14,11 @@ Status = focal.Status
 
 # What is asked of a closed object: a name of its class, and arguments that would do. None: a property.
 USES = {
-    "Context": {"backend": None, "backend_reason": None, "thread_count": None, "memory_held": None},
+    "Context": {"backend": None, "backend_reason": None, "thread_count": None, "memory_held": None, "stock_models": None},
     "Task": {"cancel": (), "reset": (), "progress": None, "stage": None, "cancelled": None},
     "Mesh": {"info": None, "vertex_count": None, "triangle_count": None, "surface_area": None, "vertices": None,
              "faces": None, "warnings": None, "position_of": ((0, (1, 0, 0)),), "point_at_vertex": (0,),
-             "closest_point": ((0, 0, 0),), "describe": ([0],), "distances": (0,), "symmetry_plane": (), "write_wrap": ("w.glb",), "left_out": None},
+             "describe": ([0],), "distances": (0,), "parts": None, "closest_point": ((0, 0, 0),), "symmetry_plane": (), "write_wrap": ("w.glb",), "left_out": None},
     "TrainingSet": {"mesh_count": None, "check": (), "add": (mesh(), [0, 1, 2]), "add_rig": (mesh(),)},
     "Model": {"save": ("m.focal",), "to_bytes": (), "info": None, "train_params": None, "landmark_names": None,
               "joint_names": None, "detect": (mesh(),), "analyse": (mesh(),),
@@ -30,9 +30,11 @@ USES = {
                   "correspond": (detection(),), "rig": (), "write": ("d.glb",), "write_votes": ("d.glb",),
                   "write_segments": ("d.glb",), "__len__": (), "__iter__": (), "__getitem__": (0,)},
     "Correspondence": {"points": None, "carry": ([0.0] * 514,)},
-    "Skeleton": {"joints": None, "weights": None, "info": None, "warnings": None, "write": ("s.glb",), "verdict": None, "quality": None},
+    "Skeleton": {"joints": None, "weights": None, "info": None, "warnings": None, "write": ("s.glb",), "verdict": None, "quality": None,
+                 "write_vrm": ("s.vrm", {"name": "Ann", "authors": ["Bob"]})},
 }
-ALIVE = {"close", "closed", "origin", "load", "from_bytes", "train", "landmark_names"}  # asks nothing of the library's object
+ALIVE = {"close", "closed", "load", "from_bytes", "from_parts", "load_stock", "bind", "train", "landmark_names",
+         "joint_names", "origin"}  # asks nothing of the library's object
 
 
 def made():

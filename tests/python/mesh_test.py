@@ -21,6 +21,22 @@ class Arrays(Case):
         self.assertEqual(rows(made.vertices), rows(self.expected))
         self.assertEqual(rows(made.faces), rows(self.faces))
 
+    def test_parts(self):
+        one = mesh()
+        vertices, faces = rows(one.vertices), rows(one.faces)
+        moved = [(x + 0.25, y, z) for x, y, z in vertices]
+        both = focal.Mesh.from_parts([(vertices, faces), (moved, faces)])
+        self.assertEqual(both.vertex_count, 2 * len(vertices))
+        first, second = both.parts
+        self.assertEqual(first, (range(0, len(vertices)), range(0, len(faces))))
+        self.assertEqual(second.vertices, range(len(vertices), 2 * len(vertices)))
+        self.assertEqual(rows(both.faces)[len(faces)], [v + len(vertices) for v in faces[0]])
+        self.assertEqual(len(one.parts), 1)
+        with self.assertRaises(focal.Error):
+            focal.Mesh.from_parts([])
+        with self.assertRaisesRegex(ValueError, "shape|rows of 3"):
+            focal.Mesh.from_parts([([(0, 0)], faces)])
+
     def test_rows_flat_numbers_and_buffers_give_the_same_mesh(self):
         flat_vertices = [x for vertex in self.vertices for x in vertex]
         flat_faces = [x for face in self.faces for x in face]

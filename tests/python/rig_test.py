@@ -58,6 +58,74 @@ class Rigs(Case):
         said = any(warning.startswith("the rig ") for warning in skeleton.warnings)
         self.assertEqual(said, skeleton.verdict != focal.Verdict.GOOD)
 
+    def test_fixed_joints(self):
+        name = rig_model().joint_names[5]
+        free = found().rig().joints[5]
+        place = tuple(x + 0.0625 for x in free.position)
+        pinned = found().rig(fixed_joints={name: place}).joints
+        self.assertEqual(pinned[5].position, tuple(struct.unpack("3f", struct.pack("3f", *place))))
+        self.assertEqual(pinned[5].confidence, 1)
+        self.assertNotEqual(pinned[free.parent].position, found().rig().joints[free.parent].position)
+        with self.assertRaisesRegex(ValueError, "no_such_joint"):
+            found().rig(fixed_joints={"no_such_joint": place})
+        with self.assertRaisesRegex(ValueError, "3 numbers"):
+            found().rig(fixed_joints={name: (0, 0)})
+
+    def test_ground_root_and_vrm(self):
+        folder = pathlib.Path(self.folder())
+        skeleton = found().rig(names="mixamo", ground_root=True)
+        first, second = skeleton.joints[:2]
+        self.assertEqual((first.name, first.parent, second.parent), ("root", -1, 0))
+        self.assertAlmostEqual(first.position[1], min(y for _, y, _ in rows(focal.Mesh.load(HUMANOIDS / "humanoid_01.glb").vertices)), 5)
+        self.assertNotIn(0, {number for row, share in zip(rows(skeleton.weights[0]), rows(skeleton.weights[1]))
+                             for number, weight in zip(row, share) if weight > 0})
+        skeleton.write_vrm(folder / "avatar.vrm", {"name": "Ann", "authors": ["Bob"]})
+        file = gltf(folder / "avatar.vrm")
+        bones = file["extensions"]["VRMC_vrm"]["humanoid"]["humanBones"]
+        self.assertEqual(file["nodes"][bones["leftUpperArm"]["node"]]["name"], "mixamorig:LeftArm")
+        self.assertEqual(file["nodes"][bones["hips"]["node"]]["name"], "mixamorig:Hips")
+        self.refused(Status.INVALID_ARGUMENT, "name and a list of authors", skeleton.write_vrm, folder / "a.vrm", {})
+        with self.assertRaises(TypeError):
+            skeleton.write_vrm(folder / "a.vrm", "Ann")
+
+    def test_bind(self):
+        mesh = focal.Mesh.load(HUMANOIDS / "humanoid_00.rig.glb")
+        skeleton = focal.Skeleton.bind(mesh)
+        self.assertEqual({joint.name for joint in skeleton.joints}, set(rig_model().joint_names))
+        target = pathlib.Path(self.folder()) / "kept.glb"
+        skeleton.write(target)
+        before, after = gltf(HUMANOIDS / "humanoid_00.rig.glb"), gltf(target)
+        self.assertEqual((before["nodes"], before["skins"]), (after["nodes"], after["skins"]))
+
+        joints = skeleton.joints
+        again = focal.Skeleton.bind(focal.Mesh(mesh.vertices, mesh.faces), joints, max_influences=8)
+        self.assertEqual([one.position for one in again.joints], [one.position for one in joints])
+        self.assertEqual(len(rows(again.weights[0])[0]), 8)
+        two = [{"name": "a", "parent": -1, "position": joints[0].position, "moves": False},
+               {"name": "b", "parent": 0, "position": joints[1].position, "tip": joints[1].tip}]
+        numbers, weights = focal.Skeleton.bind(mesh, two).weights
+        self.assertEqual({number for row, share in zip(rows(numbers), rows(weights))
+                          for number, weight in zip(row, share) if weight > 0}, {1})
+        for wrong, message in (([{"name": "a"}], "lacks parent, position"), (["a"], "each joint must be a mapping")):
+            with self.assertRaisesRegex((TypeError, ValueError), message):
+                focal.Skeleton.bind(mesh, wrong)
+        self.refused(Status.INVALID_ARGUMENT, "no skin", focal.Skeleton.bind,
+                     focal.Mesh.load(HUMANOIDS / "humanoid_01.glb"))
+
+    def test_stock_models(self):
+        folder = pathlib.Path(self.folder())
+        rig_model().save(folder / "tiny.focal")
+        context = focal.Context(models_folder=folder)
+        self.assertEqual(context.stock_models["tiny"], folder / "tiny.focal")
+        self.assertEqual(focal.stock_models(context), context.stock_models)
+        self.assertEqual(focal.Model.load_stock("tiny", context=context).joint_names, rig_model().joint_names)
+        with self.assertRaises(focal.Error) as caught:
+            focal.Model.load_stock("dragon", context=context)
+        self.assertEqual(caught.exception.code, Status.FILE_NOT_FOUND)
+        self.assertIn("tiny", caught.exception.hint)
+        with self.assertRaises(TypeError):
+            focal.Model.load_stock(3)
+
     def test_check(self):
         marked, folder = focal.TrainingSet(), pathlib.Path(self.folder())
         self.refused(Status.INVALID_ARGUMENT, "no rigged character", marked.check)

@@ -43,6 +43,7 @@ class Marks(Case):
         for kind, marks in ((ValueError, self.marks[:2]), (ValueError, [*self.marks, 0]), (ValueError, {"nse": 3}),
                             (ValueError, [-1, 0, 0]), (ValueError, [2**32, 0, 0]), (TypeError, "abc"),
                             (TypeError, None), (TypeError, 3), (TypeError, ["a", 0, 0]), (TypeError, [0.5, 0, 0]),
+                            (TypeError, [(1, "a", 3), 0, 0]), (ValueError, [(0, (1, 0)), 0, 0]),
                             (TypeError, [(1, 2), 0, 0]), (ValueError, [(0, (1, 0)), 0, 0]),
                             (TypeError, [("a", (1, 0, 0)), 0, 0]), (TypeError, [(0, (None, 0, 0)), 0, 0])):
             with self.assertRaises(kind, msg=str(marks)):
@@ -115,7 +116,7 @@ class Training(Case):
             _abi.focal_train_params: [focal.Model.train], _abi.focal_detect_params: [focal.Model.detect],
             _abi.focal_mesh_params: [focal.Mesh.load], _abi.focal_skeleton_params: [focal.Detection.rig],
             _abi.focal_context_params: [focal.Context.__init__]}
-        ours = {"struct_size", "reserved", "joint_name_count", "log_user_data",
+        ours = {"struct_size", "reserved", "reserved_2", "joint_name_count", "fixed_joint_count", "log_user_data",
                 "fixed_points", "fixed_point_count",  # fixed says both
                 "parallel_for", "parallel_for_user_data"}  # Python has no parallel loop to offer
         for struct, functions in keywords.items():

@@ -9,11 +9,11 @@ bl_info = {
     "category": "Rigging",
 }
 
-from . import (batch, correction, detection, engine, jobs, landmark_edit, landmark_pick, overlay, panels,  # noqa: E402
+from . import (batch, binding, correction, detection, engine, jobs, landmark_edit, landmark_pick, overlay, panels,  # noqa: E402
                preferences, properties, rigging, segmentation, training)
 
 _MODULES = (properties, preferences, jobs, landmark_edit, landmark_pick, training, detection, correction, rigging,
-            segmentation, batch, panels, overlay)
+            binding, segmentation, batch, panels, overlay)
 
 
 def register():

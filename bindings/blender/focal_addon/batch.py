@@ -42,7 +42,7 @@ at the end and does not stop the others. Esc cancels"""
                     raise Cancelled from error
                 self._failed.append(f"'{target.surface.name}': {message_of(error)}")
                 continue
-            target.known = target.positions = target.faces = None  # a long list would fill the memory
+            target.known = target.parts = None  # a long list would fill the memory
             done.append((target, result))
         return done
 
@@ -50,11 +50,11 @@ at the end and does not stop the others. Esc cancels"""
         written = 0
         for target, result in done:
             try:
-                obj = target.object()
+                objects = target.objects()
                 if self._rig:
-                    write_rig(context, obj, target, result)
+                    write_rig(context, objects, target, result)
                 else:
-                    write_landmarks(context, obj, target, result)
+                    write_landmarks(context, objects, target, result)
                 written += 1
             except Unusable as error:
                 self._failed.append(str(error))

@@ -3,7 +3,7 @@ import bpy
 
 from . import jobs, landmark_data
 from .detection import Target, write_landmarks
-from .geometry import Unusable, problem_of
+from .geometry import Unusable, character_of, problem_of
 from .jobs import JobOperator
 from .training import model_path
 
@@ -21,24 +21,29 @@ cancels"""
         return super().poll(context) and obj is not None and obj.type == "MESH" and obj.focal.model != ""
 
     def prepare(self, context):
-        self._target = Target(context, context.active_object)
+        self._target = Target(context, character_of(context, context.active_object))
         if not self._target.fixed:
             raise Unusable("Set or accept a landmark first: the others are then chosen to suit it")
         return lambda job: self._target.detect(job)
 
     def apply(self, context, detection):
-        target, obj = self._target, self._target.object()
+        target, objects = self._target, self._target.objects()
+        obj = objects[0]
         target.remember()
-        before = {mark.name: mark.position.copy() for mark in obj.focal.landmarks if mark.placed}
-        write_landmarks(context, obj, target, detection)
+        before = _positions(objects)
+        write_landmarks(context, objects, target, detection)
         least = 1e-6 * target.surface.size()
-        moved = sum(mark.placed and (mark.name not in before or (mark.position - before[mark.name]).length > least)
-                    for mark in obj.focal.landmarks)
-        unsure = landmark_data.counts(obj)[2]
+        moved = sum(key not in before or (position - before[key]).length > least
+                    for key, position in _positions(objects).items())
+        unsure = sum(landmark_data.counts(one)[2] for one in objects)
         self.report({"INFO"}, f"{moved} landmark{'' if moved == 1 else 's'} moved, {unsure} uncertain")
         in_window = self._job is not None
-        if in_window and landmark_data.fixed_places(obj, target.surface) != target.fixed:
+        if in_window and target.fixed_on(objects) != target.fixed:
             follow(context, obj, True)  # another correction came while this one was worked on
+
+
+def _positions(objects):
+    return {(obj.name, mark.name): mark.position.copy() for obj in objects for mark in obj.focal.landmarks if mark.placed}
 
 
 def follow(context, obj, in_window):

@@ -7,7 +7,7 @@ import bpy
 from bpy.props import BoolProperty
 
 from . import display, engine, landmark_data
-from .geometry import Surface, Unusable, hints_of, object_named
+from .geometry import Character, Surface, Unusable, character_of, hints_of, object_named
 from .jobs import JobOperator
 from .landmark_data import active_of
 from .training import model_path
@@ -37,20 +37,31 @@ class Known(typing.NamedTuple):
 
 
 class Target:
-    """What one mesh's detection needs, read from the scene in the main thread. With keep_marked, landmarks set by hand
-    are fixed, and the others are chosen to suit them."""
+    """What one character's detection needs, read from the scene in the main thread: one object, or several that are one
+    character, the first of which leads. With keep_marked, landmarks set by hand are fixed, and the others are chosen to suit them."""
 
-    def __init__(self, context, obj, keep_marked=True):
+    def __init__(self, context, objects, keep_marked=True):
         engine.focal()
-        self.surface = Surface(obj)
-        self.positions, self.faces = self.surface.positions(), self.surface.faces()
+        objects = list(objects) if isinstance(objects, (list, tuple)) else [objects]
+        self.character = Character([Surface(obj) for obj in objects])
+        self.surface = self.character.surfaces[0]
+        self.parts = self.character.parts()
         self.path = model_path(context, must_exist=True)
         stat = os.stat(self.path)
         self.model_key = (self.path, stat.st_mtime_ns, stat.st_size, engine.context())
         self.quality = context.scene.focal.search.lower()
-        self.key = (self.surface.key(), self.model_key, self.quality)
-        self.fixed = landmark_data.fixed_places(obj, self.surface) if keep_marked else {}
+        self.key = (self.character.key(), self.model_key, self.quality)
+        self.fixed = self.fixed_on(objects) if keep_marked else {}
         self.known = _detections.get(self.key)
+
+    def fixed_on(self, objects):
+        """Landmarks set by hand on any of the objects, on the triangles of the character."""
+        fixed = {}
+        for number, obj in enumerate(objects):
+            first = self.character.first_triangle[number]
+            for name, (triangle, weights) in landmark_data.fixed_places(obj, self.character.surfaces[number]).items():
+                fixed.setdefault(name, (first + triangle, weights))
+        return fixed
 
     @property
     def ready(self):
@@ -73,8 +84,10 @@ class Target:
         return self.known.detection
 
     def _analyse(self, model, task):
-        mesh = engine.package().Mesh(self.positions, self.faces, context=self.model_key[-1])
-        return model.analyse(mesh, quality=self.quality, task=task)
+        return model.analyse(self.mesh(), quality=self.quality, task=task)
+
+    def mesh(self):
+        return engine.package().Mesh.from_parts(self.parts, context=self.model_key[-1])
 
     def _fixed_in(self, model):
         """Those that the model knows; the paper's method finds each landmark on its own."""
@@ -92,12 +105,17 @@ class Target:
             while len(_detections) > _KEPT:
                 _detections.popitem(last=False)
 
+    def objects(self):
+        """The meshes as they are now; Unusable when they are not those that were looked at."""
+        objects = [object_named(surface.name) for surface in self.character.surfaces]
+        for obj, surface in zip(objects, self.character.surfaces):
+            if Surface(obj).key() != surface.key():
+                raise Unusable(f"'{obj.name}' was changed meanwhile: run it again")
+        return objects
+
     def object(self):
-        """The mesh as it is now; Unusable when it is not the one that was looked at."""
-        obj = object_named(self.surface.name)
-        if Surface(obj).key() != self.surface.key():
-            raise Unusable(f"'{obj.name}' was changed meanwhile: run it again")
-        return obj
+        """The first of them."""
+        return self.objects()[0]
 
 
 def _loaded(model_key):
@@ -123,44 +141,69 @@ class FOCAL_OT_detect(JobOperator, bpy.types.Operator):
         description="Landmarks set or accepted by hand stay, and the others are chosen to suit them")
 
     def prepare(self, context):
-        self._target = Target(context, context.active_object, self.keep_marked)
+        self._target = Target(context, character_of(context, context.active_object), self.keep_marked)
         return lambda job: self._target.detect(job)
 
     def apply(self, context, detection):
-        obj = self._target.object()
+        objects = self._target.objects()
+        obj = objects[0]
         self._target.remember()
-        write_landmarks(context, obj, self._target, detection, self.keep_marked)
-        placed, total, unsure = landmark_data.counts(obj)
+        write_landmarks(context, objects, self._target, detection, self.keep_marked)
+        placed, total, unsure = (sum(numbers) for numbers in zip(*map(landmark_data.counts, objects)))
         hints = "; ".join(hints_of(obj))
         text = f"{placed} of {total} landmarks placed, {unsure} uncertain" + (f"; {hints}" if hints else "")
         self.report({"WARNING"} if obj.focal.category_fit < 0.2 else {"INFO"},
                     text if obj.focal.category_fit >= 0.2 else f"This mesh is hardly of the model's kind. {text}")
 
 
-def write_landmarks(context, obj, target, detection, keep_marked=True):
-    """A detection's landmarks into the object's list, in the model's order where the list was empty."""
+def write_landmarks(context, objects, target, detection, keep_marked=True):
+    """A detection's landmarks into the lists of the objects on which they lie, in the model's order where a list was empty; what is
+    absent into that of the first."""
     for found in detection:
-        mark = landmark_data.ensure(obj, found.name)
-        if keep_marked and mark.by_hand:
+        if keep_marked and any(_by_hand(obj, found.name) for obj in objects):
             continue
-        if found.absent or found.point is None:
+        absent = found.absent or found.point is None
+        number, triangle = (0, -1) if absent else target.character.owner(found.point.triangle)
+        for other in objects[:number] + objects[number + 1:]:
+            landmark_data.forget(other, found.name)
+        mark, surface = landmark_data.ensure(objects[number], found.name), target.character.surfaces[number]
+        if absent:
             landmark_data.unplace(mark, "ABSENT")
         else:
-            landmark_data.place(obj, mark, target.surface, found.point.triangle,
-                                target.surface.turned(found.point.barycentric), _STATUS[int(found.status)])
+            landmark_data.place(objects[number], mark, surface, triangle, surface.turned(found.point.barycentric),
+                                _STATUS[int(found.status)])
         mark.confidence = found.confidence
         mark.expected_error = found.expected_error
-        _write_runner_up(mark, target.surface, found.runner_up)
-    obj.focal.model = target.path
-    obj.focal.category_fit = detection.category_fit
-    display.update_empties(context, obj)
-    display.refresh(context, obj)
+        _write_runner_up(mark, target, number, found.runner_up)
+    for obj in objects:
+        obj.focal.model = target.path
+        obj.focal.category_fit = detection.category_fit
+        remember_character(obj, objects)
+        display.update_empties(context, obj)
+        display.refresh(context, obj)
 
 
-def _write_runner_up(mark, surface, place):
-    mark.runner_up_triangle = -1 if place is None else place.point.triangle
-    if place is not None:
-        mark.runner_up_barycentric = surface.turned(place.point.barycentric)
+def _by_hand(obj, name):
+    at = landmark_data.index_of(obj, name)
+    return at >= 0 and obj.focal.landmarks[at].by_hand
+
+
+def remember_character(obj, objects):
+    """So that a correction of one of its objects looks at all of them again."""
+    obj.focal.character.clear()
+    for other in objects if len(objects) > 1 else ():
+        obj.focal.character.add().object = other
+
+
+def _write_runner_up(mark, target, number, place):
+    """Only on the same object: a landmark does not change its list by a click."""
+    mark.runner_up_triangle = -1
+    if place is None:
+        return
+    owner, triangle = target.character.owner(place.point.triangle)
+    if owner == number:
+        mark.runner_up_triangle = triangle
+        mark.runner_up_barycentric = target.character.surfaces[number].turned(place.point.barycentric)
         mark.runner_up_confidence = place.confidence
 
 
@@ -175,7 +218,7 @@ class FOCAL_OT_show_votes(JobOperator, bpy.types.Operator):
         return super().poll(context) and active_of(context.active_object) is not None
 
     def prepare(self, context):
-        self._target = Target(context, context.active_object)
+        self._target = Target(context, character_of(context, context.active_object))
         name = active_of(context.active_object).name
 
         def work(job):
@@ -186,9 +229,11 @@ class FOCAL_OT_show_votes(JobOperator, bpy.types.Operator):
         return work
 
     def apply(self, context, votes):
-        obj = self._target.object()
+        objects = self._target.objects()
         self._target.remember()
-        display.write_colours(obj.data, display.VOTES, "POINT", display.heat_colours(votes))
+        for number, obj in enumerate(objects):
+            own = votes[self._target.character.vertices_of(number)]
+            display.write_colours(obj.data, display.VOTES, "POINT", display.heat_colours(own))
         display.show_colours(context)
 
 

@@ -62,6 +62,19 @@ def problem():
     return _problem
 
 
+def stock_models():
+    """{name: path} of the models that came with the add-on, or lie where focal looks for them."""
+    return context().stock_models
+
+
+def stock_hint():
+    """Which there are, as a sentence."""
+    names = sorted(stock_models())
+    if not names:
+        return "No stock model is installed: this zip was made without them"
+    return f"Stock models: {', '.join(names)}"
+
+
 def version():
     return _package.version()
 

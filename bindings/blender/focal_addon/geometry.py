@@ -73,6 +73,7 @@ class Surface:
         if obj.mode == "EDIT":
             obj.update_from_editmode()
         self.name = obj.name
+        self.location = obj.matrix_world.translation.copy()
         self.local = _local_positions(obj.data)
         self.triangles, self.polygons = _triangles(obj.data)
         if not len(self.triangles):
@@ -126,6 +127,47 @@ class Surface:
         return digest.hexdigest()
 
 
+class Character:
+    """One or several objects as one surface: vertices and triangles numbered through, the first object at the origin."""
+
+    def __init__(self, surfaces):
+        self.surfaces = surfaces
+        self.first_vertex = _starts(len(s.local) for s in surfaces)
+        self.first_triangle = _starts(len(s.triangles) for s in surfaces)
+
+    def parts(self):
+        """(positions, faces) of each object, in one coordinate system."""
+        origin = self.surfaces[0].location
+        return [(s.positions() + numpy.array(TO_GLTF.to_3x3() @ (s.location - origin), dtype=numpy.float32), s.faces())
+                if s is not self.surfaces[0] else (s.positions(), s.faces()) for s in self.surfaces]
+
+    def vertices_of(self, number):
+        """The slice of an object's vertices."""
+        return slice(self.first_vertex[number], self.first_vertex[number + 1])
+
+    def triangles_of(self, number):
+        return slice(self.first_triangle[number], self.first_triangle[number + 1])
+
+    def owner(self, triangle):
+        """(number of the object, the triangle's own number there)"""
+        number = int(numpy.searchsorted(self.first_triangle, triangle, side="right")) - 1
+        return number, triangle - self.first_triangle[number]
+
+    def key(self):
+        """Differs when anything that focal sees differs."""
+        if len(self.surfaces) == 1:
+            return self.surfaces[0].key()
+        digest = hashlib.blake2b(digest_size=16)
+        for positions, faces in self.parts():
+            digest.update(positions.tobytes())
+            digest.update(faces.tobytes())
+        return digest.hexdigest()
+
+
+def _starts(counts):
+    return [0, *numpy.cumsum(list(counts)).tolist()]
+
+
 def _local_positions(mesh):
     """Of the basis where there are shape keys: what they show now is not the shape."""
     source = mesh.shape_keys.reference_key.data if mesh.shape_keys else mesh.vertices
@@ -152,6 +194,15 @@ def selected_meshes(context):
         chosen.remove(active)
         chosen.insert(0, active)
     return chosen
+
+
+def character_of(context, obj):
+    """The objects that are one character with this one: the selected meshes; else those that it was looked at with; itself first."""
+    chosen = selected_meshes(context)
+    if obj is None or (obj in chosen and len(chosen) > 1):
+        return chosen or [obj]
+    known = [item.object for item in obj.focal.character if item.object is not None] if obj.type == "MESH" else []
+    return [obj] + [other for other in known if other != obj and other.name in context.scene.objects]
 
 
 def object_named(name):

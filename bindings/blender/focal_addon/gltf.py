@@ -9,8 +9,8 @@ _PLAIN = {"export_format": "GLB", "use_selection": True, "export_skins": True, "
           "export_morph": False, "export_cameras": False, "export_lights": False, "export_all_influences": False}
 
 
-def export_character(context, obj, path):
-    """Writes the mesh and its armature, and nothing else, to a .glb; gives the path."""
+def export_character(context, objects, path):
+    """Writes the meshes of one character and their armature, and nothing else, to a .glb; gives the path."""
     if not hasattr(bpy.types, "EXPORT_SCENE_OT_gltf"):
         raise Unusable("Switch on Blender's add-on 'glTF 2.0 format' in the preferences")
     # Exporters of before 2023 ask NumPy for names that it has dropped since.
@@ -18,7 +18,7 @@ def export_character(context, obj, path):
         numpy.bool = bool
     known = bpy.ops.export_scene.gltf.get_rna_type().properties.keys()
     options = {name: value for name, value in _PLAIN.items() if name in known}
-    with Selection(context, [obj, armature_of(obj)]):
+    with Selection(context, [*objects, armature_of(objects[0])]):
         bpy.ops.export_scene.gltf(filepath=path, **options)
     return path
 

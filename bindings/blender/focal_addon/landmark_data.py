@@ -27,6 +27,13 @@ def ensure(obj, name):
     return mark
 
 
+def forget(obj, name):
+    """Takes a landmark off the list that another object of the character has now."""
+    at = index_of(obj, name)
+    if at >= 0 and not obj.focal.landmarks[at].by_hand:
+        obj.focal.landmarks.remove(at)
+
+
 def place(obj, mark, surface, triangle, barycentric, status="MARKED"):
     """Puts a landmark onto the surface."""
     mark.triangle = triangle

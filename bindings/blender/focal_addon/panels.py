@@ -70,6 +70,30 @@ class FOCAL_MT_landmarks(bpy.types.Menu):
         layout.operator("focal.landmark_export", icon="EXPORT")
 
 
+class FOCAL_OT_use_model(bpy.types.Operator):
+    """Use this stock model: it needs no training"""
+    bl_idname = "focal.use_model"
+    bl_label = "Use Stock Model"
+    bl_options = {"REGISTER", "UNDO"}
+
+    name: bpy.props.StringProperty()
+
+    def execute(self, context):
+        context.scene.focal.model_path = self.name
+        return {"FINISHED"}
+
+
+class FOCAL_MT_models(bpy.types.Menu):
+    bl_label = "Stock Models"
+
+    def draw(self, _context):
+        found = sorted(engine.stock_models()) if engine.ready() else ()
+        for name in found:
+            self.layout.operator("focal.use_model", text=name.capitalize(), icon="OUTLINER_OB_ARMATURE").name = name
+        if not found:
+            self.layout.label(text="None is installed")
+
+
 class SidebarPanel:
     bl_space_type = "VIEW_3D"
     bl_region_type = "UI"
@@ -87,7 +111,9 @@ class FOCAL_PT_main(SidebarPanel, bpy.types.Panel):
             layout.operator("preferences.addon_show", text="Preferences", icon="PREFERENCES").module = __package__
         if job is not None:
             draw_progress(layout, context, job)
-        settings_column(layout).prop(context.scene.focal, "model_path")
+        row = settings_column(layout).row(align=True)
+        row.prop(context.scene.focal, "model_path")
+        row.menu("FOCAL_MT_models", text="", icon="DOWNARROW_HLT")
 
 
 def settings_column(layout):
@@ -220,11 +246,14 @@ class FOCAL_PT_rig(SidebarPanel, bpy.types.Panel):
         column.prop(settings, "bone_names")
         column.prop(settings, "template_path")
         column.prop(settings, "symmetric")
+        column.prop(settings, "ground_root")
+        column.prop(settings, "rig_landmarks")
         if obj is not None and obj.type == "MESH" and armature_of(obj) is not None:
             column.prop(settings, "replace_rig", text="Replace")
         row = layout.row()
         row.scale_y = 1.3
         row.operator("focal.rig", icon="ARMATURE_DATA")
+        row.operator("focal.bind", icon="MOD_VERTEX_WEIGHT")
 
 
 class FOCAL_PT_segmentation(SidebarPanel, bpy.types.Panel):
@@ -255,7 +284,7 @@ class FOCAL_PT_batch(SidebarPanel, bpy.types.Panel):
                 layout.label(text=line, icon="BLANK1" if number else "ERROR")
 
 
-CLASSES = (FOCAL_UL_landmarks, FOCAL_UL_training, FOCAL_UL_errors, FOCAL_MT_landmarks, FOCAL_PT_main,
+CLASSES = (FOCAL_UL_landmarks, FOCAL_UL_training, FOCAL_UL_errors, FOCAL_OT_use_model, FOCAL_MT_models, FOCAL_MT_landmarks, FOCAL_PT_main,
            FOCAL_PT_landmarks, FOCAL_PT_training, FOCAL_PT_detection, FOCAL_PT_rig, FOCAL_PT_segmentation,
            FOCAL_PT_batch)
 

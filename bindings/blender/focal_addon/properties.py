@@ -20,7 +20,12 @@ BONE_NAMES = (
     ("UNREAL", "Unreal", "pelvis, upperarm_l"),
     ("RIGIFY", "Rigify", "DEF-spine, DEF-upper_arm.L: Blender mirrors poses and weights"),
     ("UNITY", "Unity, Godot", "Hips, LeftUpperArm"),
+    ("RIGIFY_METARIG", "Rigify metarig", "spine, upper_arm.L, thigh.L: what Rigify generates controls from"),
 )
+
+
+DEFAULT_MODEL = "humanoid"         # a stock model
+TRAINED_MODEL = "//landmarks.focal"  # where training writes to when no file is named
 
 
 def redraw_views(_self, context):
@@ -53,16 +58,17 @@ class FocalLandmark(bpy.types.PropertyGroup):
         return self.placed if self.status == "MARKED" else self.status == "ABSENT" and self.told_absent
 
 
+class FocalTrainingMesh(bpy.types.PropertyGroup):
+    object: PointerProperty(type=bpy.types.Object, name="Mesh")
+
+
 class FocalObject(bpy.types.PropertyGroup):
+    character: CollectionProperty(type=FocalTrainingMesh, description="The objects that make one character with this one")
     landmarks: CollectionProperty(type=FocalLandmark)
     active: IntProperty(name="Active landmark", update=redraw_views)
     model: StringProperty(name="Model", description="File of the model that found the landmarks")
     category_fit: FloatProperty(name="Fits the category", min=0, max=1, subtype="FACTOR")
     triangle_count: IntProperty(description="Of the mesh when the landmarks were placed: other meshes need a snap")
-
-
-class FocalTrainingMesh(bpy.types.PropertyGroup):
-    object: PointerProperty(type=bpy.types.Object, name="Mesh")
 
 
 class FocalLandmarkError(bpy.types.PropertyGroup):
@@ -82,8 +88,9 @@ class FocalScene(bpy.types.PropertyGroup):
     quality: EnumProperty(name="Training", default="FULL", items=(
         ("FULL", "Full", "Most accurate, with confidences that mean something"),
         ("DRAFT", "Draft", "A few times faster, to try something; every confidence is about one half")))
-    model_path: StringProperty(name="Model", subtype="FILE_PATH", default="//landmarks.focal",
-                               description="File (.focal) that training writes and detection reads")
+    model_path: StringProperty(name="Model", subtype="FILE_PATH", default=DEFAULT_MODEL,
+                               description="The name of a stock model, or a file (.focal) that training writes and detection "
+                                           "reads")
     search: EnumProperty(name="Search", items=(
         ("BEST", "Best", "With the slower refinements"), ("INTERACTIVE", "Quick", "About half the time")))
     resolve: BoolProperty(
@@ -98,6 +105,10 @@ class FocalScene(bpy.types.PropertyGroup):
     empties: BoolProperty(name="Empties", default=True,
                           description="Also make an empty at each landmark: for constraints and for export")
     bone_names: EnumProperty(name="Names", items=BONE_NAMES, description="Names of the bones")
+    ground_root: BoolProperty(name="Root on the ground",
+                              description="One more bone on the ground, above all others, as engines expect it")
+    rig_landmarks: BoolProperty(name="Show landmarks", description="Also list the landmarks that a model of rigs looks for: "
+                                                                   "to correct them by hand")
     symmetric: BoolProperty(name="Symmetric", description="Bones of the left and right side get the same length")
     template_path: StringProperty(name="Skeleton", subtype="FILE_PATH",
                                   description="A skeleton of your own over the model's landmarks, as a JSON file; empty: "
@@ -115,7 +126,7 @@ class FocalScene(bpy.types.PropertyGroup):
     report: StringProperty(description="What the last run over a collection left out, and why")
 
 
-CLASSES = (FocalLandmark, FocalObject, FocalTrainingMesh, FocalLandmarkError, FocalScene)
+CLASSES = (FocalLandmark, FocalTrainingMesh, FocalObject, FocalLandmarkError, FocalScene)
 
 
 def register():

@@ -5,8 +5,8 @@ import bpy
 import numpy
 from mathutils import Quaternion, Vector
 
-from .detection import Target, write_landmarks
-from .geometry import FROM_GLTF, Unusable, armature_of, hints_of
+from .detection import Target, remember_character, write_landmarks
+from .geometry import FROM_GLTF, Unusable, armature_of, character_of, hints_of
 from .gltf import Selection
 from .jobs import JobOperator
 
@@ -18,19 +18,15 @@ _ALONG = numpy.cos(numpy.radians(40))
 
 
 class RigTarget(Target):
-    """A mesh that is to get a rig, with the settings for it."""
+    """A character that is to get a rig, with the settings for it."""
 
-    def __init__(self, context, obj):
-        super().__init__(context, obj)
-        settings, armature = context.scene.focal, armature_of(obj)
-        if armature is not None and not settings.replace_rig:
-            raise Unusable(f"'{obj.name}' is moved by the armature '{armature.name}' already: "
-                           "remove its modifier, or tick Replace")
-        if obj.data.users > 1:  # weights lie with the mesh
-            raise Unusable(f"'{obj.name}' shares its mesh with other objects: "
-                           "make it single (Object > Relations > Make Single User)")
+    def __init__(self, context, objects):
+        super().__init__(context, objects)
+        settings = context.scene.focal
+        for obj in objects if isinstance(objects, (list, tuple)) else [objects]:
+            _check_riggable(obj, settings)
         self.options = {"names": settings.bone_names.lower(), "symmetric": settings.symmetric,
-                        "skeleton_template": _template(settings)}
+                        "ground_root": settings.ground_root, "skeleton_template": _template(settings)}
 
     def rig(self, job, start=0.0, end=1.0):
         """(detection, joints, joint numbers, weights, warnings); runs in the thread."""
@@ -40,6 +36,16 @@ class RigTarget(Target):
         skeleton = detection.rig(task=task, **self.options)
         numbers, weights = skeleton.weights
         return detection, skeleton.joints, numbers, weights, skeleton.warnings
+
+
+def _check_riggable(obj, settings):
+    armature = armature_of(obj)
+    if armature is not None and not settings.replace_rig:
+        raise Unusable(f"'{obj.name}' is moved by the armature '{armature.name}' already: "
+                       "remove its modifier, or tick Replace")
+    if obj.data.users > 1:  # weights lie with the mesh
+        raise Unusable(f"'{obj.name}' shares its mesh with other objects: "
+                       "make it single (Object > Relations > Make Single User)")
 
 
 def _template(settings):
@@ -53,42 +59,63 @@ def _template(settings):
 
 
 class FOCAL_OT_rig(JobOperator, bpy.types.Operator):
-    """Give the active mesh an armature with weights. Landmarks are detected first where they are not yet. Esc cancels"""
+    """Give the selected meshes, as one character, an armature with weights. Landmarks are detected first where they are not yet.
+Esc cancels"""
     bl_idname = "focal.rig"
     bl_label = "Rig"
     bl_options = {"REGISTER", "UNDO"}
 
     def prepare(self, context):
-        self._target = RigTarget(context, context.active_object)
+        self._target = RigTarget(context, character_of(context, context.active_object))
         return lambda job: self._target.rig(job)
 
     def apply(self, context, result):
-        obj = self._target.object()
+        objects = self._target.objects()
         self._target.remember()
-        armature = write_rig(context, obj, self._target, result)
-        notes = result[-1] + hints_of(obj)
+        armature = write_rig(context, objects, self._target, result)
+        notes = result[-1] + list(dict.fromkeys(hint for obj in objects for hint in hints_of(obj)))
         self.report({"WARNING"} if result[-1] else {"INFO"},
                     "; ".join([f"{len(armature.data.bones)} bones"] + notes))
 
 
-def write_rig(context, obj, target, result):
-    """Landmarks, armature, vertex groups and modifier into the scene; the armature."""
+def write_rig(context, objects, target, result):
+    """Landmarks, one armature, and vertex groups and modifier of each object into the scene; the armature."""
     detection, joints, numbers, weights, _warnings = result
-    write_landmarks(context, obj, target, detection)
-    _remove_old_rig(obj)
-    armature, names = _new_armature(context, obj, joints)
-    _write_weights(obj, names, numbers, weights)
-    _attach(context, obj, armature)
+    if context.scene.focal.rig_landmarks or not detection.joint_names:  # a model of rigs has landmarks of its own, which say little
+        write_landmarks(context, objects, target, detection)
+    else:
+        for obj in objects:
+            remember_character(obj, objects)
+    old = {armature_of(obj) for obj in objects} - {None}
+    for obj in objects:
+        _remove_old_rig(obj)
+    armature, names = _new_armature(context, objects[0], joints)
+    for number, obj in enumerate(objects):
+        own = target.character.vertices_of(number)
+        write_weights(obj, names, numbers[own], weights[own])
+        _attach(context, obj, armature)
+    for one in old:
+        _remove_unused(one)
     return armature
 
 
+def _remove_unused(armature):
+    """An armature that moved nothing but what has another one now; one that holds a prop stays."""
+    if not armature.children and not any(armature_of(obj) is armature for obj in bpy.data.objects if obj.type == "MESH"):
+        bpy.data.objects.remove(armature)
+
+
 def _remove_old_rig(obj):
-    """Its modifiers and the groups that carry its weights; the armature itself may move other meshes too."""
+    """Its modifiers, its parent and the groups that carry its weights."""
     bones = set()
     for modifier in [m for m in obj.modifiers if m.type == "ARMATURE"]:
         if modifier.object is not None:
             bones.update(bone.name for bone in modifier.object.data.bones)
         obj.modifiers.remove(modifier)
+    if obj.parent is not None and obj.parent.type == "ARMATURE":
+        world = obj.matrix_world.copy()
+        obj.parent = None
+        obj.matrix_world = world
     for group in [g for g in obj.vertex_groups if g.name in bones]:
         obj.vertex_groups.remove(group)
 
@@ -180,9 +207,11 @@ def _turned(position):
     return FROM_GLTF.to_3x3() @ Vector(position)
 
 
-def _write_weights(obj, names, numbers, weights):
-    """Vertices of equal weight go in together: most have 1, and each call costs."""
+def write_weights(obj, names, numbers, weights, only=None):
+    """Vertices of equal weight go in together: most have 1, and each call costs. only: the bones that get a group; None: all."""
     for j, name in enumerate(names):
+        if only is not None and name not in only:
+            continue
         old = obj.vertex_groups.get(name)
         if old is not None:
             obj.vertex_groups.remove(old)

@@ -4,6 +4,7 @@ import numpy
 
 from . import display
 from .detection import Target, model_of
+from .geometry import character_of
 from .jobs import JobOperator
 
 ATTRIBUTE = "focal part"
@@ -16,7 +17,7 @@ class FOCAL_OT_segment(JobOperator, bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
 
     def prepare(self, context):
-        self._target = Target(context, context.active_object)
+        self._target = Target(context, character_of(context, context.active_object))
         method = context.scene.focal.segmentation.lower()
 
         def work(job):
@@ -28,19 +29,24 @@ class FOCAL_OT_segment(JobOperator, bpy.types.Operator):
         return work
 
     def apply(self, context, result):
-        obj = self._target.object()
+        objects, character = self._target.objects(), self._target.character
         self._target.remember()
         labels, names = result
-        settings = context.scene.focal
-        faces = _of_faces(obj.data, self._target.surface.polygons, labels)
-        write_attribute(obj.data, faces)
-        if settings.parts_as_groups:
-            write_groups(obj, faces, names)
-        if settings.parts_as_colours:
-            corners = numpy.repeat(faces, _corner_counts(obj.data))
-            display.write_colours(obj.data, display.PARTS, "CORNER", display.part_colours(corners))
-            display.show_colours(context)
-        self.report({"INFO"}, f"{len(numpy.unique(faces[faces >= 0]))} parts")
+        for number, obj in enumerate(objects):
+            own = labels[character.triangles_of(number)]
+            _write(context, obj, _of_faces(obj.data, character.surfaces[number].polygons, own), names)
+        self.report({"INFO"}, f"{len(numpy.unique(labels[labels >= 0]))} parts")
+
+
+def _write(context, obj, faces, names):
+    settings = context.scene.focal
+    write_attribute(obj.data, faces)
+    if settings.parts_as_groups:
+        write_groups(obj, faces, names)
+    if settings.parts_as_colours:
+        corners = numpy.repeat(faces, _corner_counts(obj.data))
+        display.write_colours(obj.data, display.PARTS, "CORNER", display.part_colours(corners))
+        display.show_colours(context)
 
 
 def _of_faces(mesh, polygons, labels):

@@ -8,6 +8,7 @@ import numpy
 from . import engine, gltf, landmark_data
 from .geometry import Unusable, armature_of, problem_of, selected_meshes
 from .jobs import JobOperator
+from .properties import TRAINED_MODEL
 
 _DRAFT = {"proxy_vertices": 1500, "tree_count": 10, "learn_confidence": False}
 _MOST_FOLDS = 10
@@ -99,14 +100,35 @@ def model_path(context, must_exist=False):
     """The model's file as the settings say, absolute."""
     raw = context.scene.focal.model_path
     if not raw:
-        raise Unusable("Name a model file first")
+        raise Unusable(f"Name a model file first. {engine.stock_hint()}")
+    if is_stock_name(raw):
+        return _stock_path(raw)
     if raw.startswith("//") and not bpy.data.filepath:
         path = os.path.join(bpy.app.tempdir, raw[2:])  # nothing is saved yet: gone when Blender ends
     else:
         path = bpy.path.abspath(raw)
     if must_exist and not os.path.isfile(path):
-        raise Unusable(f"There is no model '{path}': train one, or choose another file")
+        raise Unusable(f"There is no model '{path}': train one, or choose another file. {engine.stock_hint()}")
     return path
+
+
+def is_stock_name(raw):
+    """A plain word: files have a folder or a suffix."""
+    return raw != "" and not any(sign in raw for sign in "/\\.")
+
+
+def _stock_path(name):
+    path = engine.stock_models().get(name)
+    if path is None:
+        raise Unusable(f"There is no stock model '{name}'. {engine.stock_hint()}")
+    return str(path)
+
+
+def path_to_train(context):
+    """The file that training writes; a stock model is never written over."""
+    if is_stock_name(context.scene.focal.model_path):
+        context.scene.focal.model_path = TRAINED_MODEL
+    return model_path(context)
 
 
 class FOCAL_OT_train(JobOperator, bpy.types.Operator):
@@ -117,7 +139,7 @@ class FOCAL_OT_train(JobOperator, bpy.types.Operator):
 
     def prepare(self, context):
         engine.focal()
-        path, options, run_context = model_path(context), parameters(context), engine.context()
+        path, options, run_context = path_to_train(context), parameters(context), engine.context()
         os.makedirs(os.path.dirname(path) or ".", exist_ok=True)
         if context.scene.focal.source == "RIGS":
             return _work_on_rigs(context, path, options, run_context)
@@ -133,13 +155,22 @@ class FOCAL_OT_train(JobOperator, bpy.types.Operator):
         self.report({"INFO"}, f"{result}: {model_path(context)}")
 
 
+def _characters(objects):
+    """Objects that one armature moves are one character."""
+    groups = {}
+    for obj in objects:
+        groups.setdefault(armature_of(obj), []).append(obj)
+    return list(groups.values())
+
+
 def _work_on_rigs(context, path, options, run_context):
     objects = training_objects(context)
     bare = [o.name for o in objects if armature_of(o) is None]
     if bare:
         raise Unusable(f"Without an armature: {', '.join(bare)}. Take them off the list")
     folder = tempfile.TemporaryDirectory(prefix="focal")
-    files = [gltf.export_character(context, o, os.path.join(folder.name, f"{i}.glb")) for i, o in enumerate(objects)]
+    files = [gltf.export_character(context, group, os.path.join(folder.name, f"{i}.glb"))
+             for i, group in enumerate(_characters(objects))]
     if context.scene.focal.quality == "DRAFT":
         options["rigged_shapes"] = 8
 

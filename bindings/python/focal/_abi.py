@@ -112,6 +112,7 @@ class BoneNames(IntEnum):
     UNREAL = 3
     RIGIFY = 4
     UNITY = 5
+    RIGIFY_METARIG = 6
 
 
 class Verdict(IntEnum):
@@ -150,6 +151,7 @@ class focal_context_params(Structure):
         ("parallel_for", focal_parallel_for_fn),
         ("parallel_for_user_data", c_void_p),
         ("memory_budget_bytes", c_uint64),
+        ("models_folder", c_char_p),
     ]
 
 
@@ -189,6 +191,17 @@ class focal_mesh_desc(Structure):
         ("vertex_count", c_uint64),
         ("indices", P(c_uint32)),
         ("index_count", c_uint64),
+    ]
+
+
+class focal_mesh_part(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("reserved", c_uint32),
+        ("first_vertex", c_uint64),
+        ("vertex_count", c_uint64),
+        ("first_triangle", c_uint64),
+        ("triangle_count", c_uint64),
     ]
 
 
@@ -351,6 +364,24 @@ class focal_skeleton_params(Structure):
         ("skeleton_template", c_char_p),
         ("max_influences", c_int32),
         ("reserved", c_int32),
+        ("fixed_joints", P(c_float)),
+        ("fixed_joint_count", c_uint64),
+        ("ground_root", c_int32),
+        ("reserved_2", c_int32),
+    ]
+
+
+class focal_bind_params(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("max_influences", c_int32),
+        ("joint_names", P(c_char_p)),
+        ("joint_count", c_uint64),
+        ("joint_parents", P(c_int32)),
+        ("joint_positions", P(c_float)),
+        ("joint_rotations", P(c_float)),
+        ("joint_tips", P(c_float)),
+        ("joint_moves", P(c_int32)),
     ]
 
 
@@ -413,6 +444,11 @@ FUNCTIONS = {
     "focal_mesh_load_gltf_memory": (c_int32, [
         P(focal_context), c_void_p, c_uint64, P(focal_mesh_params), P(P(focal_mesh))]),
     "focal_mesh_destroy": (c_int32, [P(focal_mesh)]),
+    "focal_mesh_create_parts": (c_int32, [
+        P(focal_context), P(P(focal_mesh_desc)), c_uint64, P(focal_mesh_params), P(P(focal_mesh))]),
+    "focal_mesh_part_init": (c_int32, [P(focal_mesh_part), c_size_t]),
+    "focal_mesh_part_count": (c_uint32, [P(focal_mesh)]),
+    "focal_mesh_get_part": (c_int32, [P(focal_mesh), c_uint32, P(focal_mesh_part)]),
     "focal_mesh_info_init": (c_int32, [P(focal_mesh_info), c_size_t]),
     "focal_mesh_get_info": (c_int32, [P(focal_mesh), P(focal_mesh_info)]),
     "focal_mesh_positions": (P(c_float), [P(focal_mesh)]),
@@ -454,6 +490,10 @@ FUNCTIONS = {
     "focal_model_save": (c_int32, [P(focal_model), c_char_p]),
     "focal_model_save_memory": (c_int32, [P(focal_model), P(P(focal_blob))]),
     "focal_model_destroy": (c_int32, [P(focal_model)]),
+    "focal_context_stock_count": (c_uint32, [P(focal_context)]),
+    "focal_context_stock_name": (c_char_p, [P(focal_context), c_uint32]),
+    "focal_context_stock_path": (c_char_p, [P(focal_context), c_uint32]),
+    "focal_model_load_stock": (c_int32, [P(focal_context), c_char_p, P(P(focal_model))]),
     "focal_model_info_init": (c_int32, [P(focal_model_info), c_size_t]),
     "focal_model_get_info": (c_int32, [P(focal_model), P(focal_model_info)]),
     "focal_model_get_train_params": (c_int32, [P(focal_model), P(focal_train_params)]),
@@ -501,6 +541,9 @@ FUNCTIONS = {
     "focal_skeleton_create": (c_int32, [
         P(focal_detection), P(focal_skeleton_params), P(focal_task), P(P(focal_skeleton))]),
     "focal_skeleton_destroy": (c_int32, [P(focal_skeleton)]),
+    "focal_bind_params_init": (c_int32, [P(focal_bind_params), c_size_t]),
+    "focal_skeleton_bind": (c_int32, [
+        P(focal_context), P(focal_mesh), P(focal_bind_params), P(focal_task), P(P(focal_skeleton))]),
     "focal_skeleton_info_init": (c_int32, [P(focal_skeleton_info), c_size_t]),
     "focal_skeleton_get_info": (c_int32, [P(focal_skeleton), P(focal_skeleton_info)]),
     "focal_joint_init": (c_int32, [P(focal_joint), c_size_t]),
@@ -508,4 +551,5 @@ FUNCTIONS = {
     "focal_skeleton_weights": (c_int32, [P(focal_skeleton), c_uint64, P(c_uint32), P(c_float)]),
     "focal_skeleton_warning": (c_char_p, [P(focal_skeleton), c_uint32]),
     "focal_skeleton_write_gltf": (c_int32, [P(focal_skeleton), c_char_p]),
+    "focal_skeleton_write_vrm": (c_int32, [P(focal_skeleton), c_char_p, c_char_p]),
 }

@@ -4,13 +4,15 @@ from __future__ import annotations
 import ctypes
 import functools
 import itertools
+import os
+import pathlib
 import threading
 from typing import Any, Callable
 
 from . import _abi
 from ._handle import Handle
 from ._library import create, library
-from ._values import fill, new
+from ._values import fill, new, path_text
 
 _numbers = itertools.count(1)
 _logs: dict[int, Callable[[_abi.LogLevel, str], Any]] = {}
@@ -36,6 +38,7 @@ class Context(Handle):
     device_index  of the GPU, from 0
     memory_budget_bytes  calls fail with Status.OUT_OF_MEMORY rather than let the library hold more than this in the process;
                   None or 0: no budget
+    models_folder  a folder of stock models of your own, looked at before the others (see focal.stock_models)
     log           log(level: focal.LogLevel, message: str), called while a focal call runs, on the thread that runs it,
                   which may not be the one that made the call. It must not raise
     """
@@ -45,9 +48,12 @@ class Context(Handle):
 
     def __init__(self, *, thread_count: int | None = None, backend: _abi.Backend | str | None = None,
                  device_index: int | None = None, memory_budget_bytes: int | None = None,
+                 models_folder: str | os.PathLike[str] | None = None,
                  log: Callable[[_abi.LogLevel, str], Any] | None = None) -> None:
         params = fill(new(_abi.focal_context_params), thread_count=thread_count, backend=backend,
                       device_index=device_index, memory_budget_bytes=memory_budget_bytes)
+        if models_folder is not None:
+            params.models_folder = path_text(models_folder)
         if log is not None:
             if not callable(log):
                 raise TypeError(f"log must be callable, not {type(log).__name__}")
@@ -82,6 +88,14 @@ class Context(Handle):
         """Bytes that the library holds in this process now, for all contexts together."""
         return library().focal_context_memory_held(self._handle)
 
+    @property
+    def stock_models(self) -> dict[str, pathlib.Path]:
+        """The stock models of this installation, by name, with their files. See Model.load_stock."""
+        with self._borrow() as handle:
+            found = range(library().focal_context_stock_count(handle))
+            return {library().focal_context_stock_name(handle, i).decode("utf-8"):
+                    pathlib.Path(os.fsdecode(library().focal_context_stock_path(handle, i))) for i in found}
+
 
 def context_or_default(context: Context | None) -> Context:
     global _default
@@ -93,3 +107,8 @@ def context_or_default(context: Context | None) -> Context:
     if not isinstance(context, Context):
         raise TypeError(f"context must be a focal.Context, not {type(context).__name__}")
     return context
+
+
+def stock_models(context: Context | None = None) -> dict[str, pathlib.Path]:
+    """The stock models of this installation, by name, with their files: what Model.load_stock takes."""
+    return context_or_default(context).stock_models

@@ -81,6 +81,15 @@ class Detection(Handle):
     _joint_names: list[str] = []
     _origin = (0.0, 0.0, 0.0)  # of the mesh
 
+    def _facts(self) -> str:
+        found = sum(not landmark.absent for landmark in self)
+        return f"{found} of {len(self)} landmarks, category fit {self.category_fit:.2f}"
+
+    @property
+    def joint_names(self) -> list[str]:
+        """Of the skeleton that the model learned of rigged characters; empty when it has none."""
+        return list(self._joint_names)
+
     def __init__(self) -> None:
         raise TypeError("make a Detection with Model.detect")
 
@@ -181,25 +190,29 @@ class Detection(Handle):
     def rig(self, *, names: _abi.BoneNames | str | None = None,
             joint_names: Sequence[str | None] | Mapping[str, str] | None = None, animations: Mesh | None = None,
             rest_pose: bool | None = None, symmetric: bool | None = None, max_influences: int | None = None,
-            skeleton_template: str | Mapping[str, Any] | None = None, task: Task | None = None,
+            skeleton_template: str | Mapping[str, Any] | None = None,
+            fixed_joints: Mapping[str, Sequence[float]] | None = None, ground_root: bool | None = None, task: Task | None = None,
             on_progress: Progress | None = None) -> Skeleton:
         """Joints and skin weights for this mesh, in the pose that it has. About a second.
 
-        names              "as_trained" (default), "vrm", "mixamo", "unreal", "rigify", "unity"
+        names              "as_trained" (default), "vrm", "mixamo", "unreal", "rigify", "unity", "rigify_metarig"
         joint_names        names of your own: {name in the model: yours}, or one (or None) for each joint in order
         animations         a rigged character, loaded from glTF, whose animations Skeleton.write puts in
         rest_pose          the file shows the character in the rest pose of those that taught the model
         symmetric          bones of the left and right side get the same length
         max_influences     joints that move one vertex, 1 to 8 (default 4)
         skeleton_template  a skeleton of your own over the landmarks, as JSON text or as a mapping
+        fixed_joints       {name in the model or template: (x, y, z)}: joints that are known, as after a correction by hand. They
+                           lie there to the bit; the others follow, less the farther along the bones
+        ground_root        one more joint, "root", first and above all others, on the ground
 
         Error: INVALID_ARGUMENT (no template, and the model was not learned of rigged characters; fewer than three
         landmarks found), INVALID_FILE (the template is no JSON); Cancelled.
         """
         character = None if animations is None else handle_of(animations, Mesh, "animations")
         params = skeleton_params(self._joint_names, names=names, joint_names=joint_names, animations=character,
-                                 rest_pose=rest_pose, symmetric=symmetric, max_influences=max_influences,
-                                 skeleton_template=skeleton_template)
+                                 rest_pose=rest_pose, symmetric=symmetric, max_influences=max_influences, ground_root=ground_root,
+                                 skeleton_template=skeleton_template, fixed_joints=fixed_joints, origin=self._origin)
         handle = self._handle
 
         def rig(task_handle: Any) -> Skeleton:

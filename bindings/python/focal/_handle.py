@@ -83,8 +83,13 @@ class Handle:
     def __reduce__(self):
         raise TypeError(f"a focal.{type(self).__name__} cannot be copied or pickled")
 
+    def _facts(self) -> str:
+        """What a look at the object in a console should show."""
+        return ""
+
     def __repr__(self) -> str:
-        return f"<focal.{type(self).__name__}{' closed' if self.closed else ''}>"
+        facts = "closed" if self.closed else self._facts()
+        return f"<focal.{type(self).__name__}{' ' + facts if facts else ''}>"
 
 
 def handle_of(value: Any, kind: type[Handle], name: str) -> Any:

@@ -4,7 +4,7 @@ from __future__ import annotations
 import ctypes
 import operator
 import os
-from typing import Any, NamedTuple, Union
+from typing import Any, Iterable, NamedTuple, Union
 
 from . import _abi
 from ._abi import Scenery, Surface
@@ -37,6 +37,13 @@ class SymmetryPlane(NamedTuple):
     normal: tuple[float, float, float]  # of length 1
     offset: float                       # in the mesh's units
     support: float                      # 0..1: share of the surface whose mirror image lies on it
+
+
+class Part(NamedTuple):
+    """One of several parts of a Mesh: the numbers of its vertices and triangles among those of the mesh."""
+
+    vertices: range
+    triangles: range
 
 
 class Mesh(Handle):
@@ -79,16 +86,40 @@ class Mesh(Handle):
         far = far_origin(vertices)
         if far is not None:
             self.origin, vertices = far, moved(vertices, tuple(-x for x in far))
-        positions = block_of(vertices, "vertices", "f", 3)
-        indices = block_of(faces, "faces", "I", 3)
-        running = context_or_default(context)
-        desc = new(_abi.focal_mesh_desc)
-        desc.positions, desc.vertex_count = positions.pointer, positions.rows
-        desc.indices, desc.index_count = indices.pointer, 3 * indices.rows
+        desc, running = _described(vertices, faces), context_or_default(context)
         params = fill(new(_abi.focal_mesh_params), weld=weld, drop_degenerate=drop_degenerate,
                       surface=surface, lenient=lenient, keep_scenery=keep_scenery, max_vertices=max_vertices,
                       max_triangles=max_triangles)
         self._take(_made(params, task, "focal_mesh_create", running._handle, ctypes.byref(desc)), running)
+
+    @classmethod
+    def from_parts(cls, parts: Iterable[tuple[Any, Any]], *, weld: bool | None = None,
+                   drop_degenerate: bool | None = None, surface: Surface | str | int | None = None,
+                   lenient: bool | None = None, keep_scenery: bool | None = None, max_vertices: int | None = None,
+                   max_triangles: int | None = None, context: Context | None = None, task: Task | None = None) -> Mesh:
+        """A character of several parts (body, eyes, clothes) as one mesh: (vertices, faces) of each, in one coordinate system. Vertices
+        and triangles are numbered through, part after part; `parts` says where each begins. Parameters and errors as Mesh."""
+        descs = [_described(vertices, faces) for vertices, faces in parts]
+        params = fill(new(_abi.focal_mesh_params), weld=weld, drop_degenerate=drop_degenerate, surface=surface,
+                      lenient=lenient, keep_scenery=keep_scenery, max_vertices=max_vertices, max_triangles=max_triangles)
+        pointers = (ctypes.POINTER(_abi.focal_mesh_desc) * max(1, len(descs)))(*[ctypes.pointer(one) for one in descs])
+        running = context_or_default(context)
+        return cls._adopt(_made(params, task, "focal_mesh_create_parts", running._handle, pointers, len(descs)), running)
+
+    def _facts(self) -> str:
+        info = self.info
+        return f"{info['vertex_count']} vertices, {info['triangle_count']} triangles"
+
+    @property
+    def parts(self) -> list[Part]:
+        """Where each part's vertices and triangles are among those of the mesh; of a file its triangle primitives."""
+        struct, found = new(_abi.focal_mesh_part), []
+        with self._borrow() as handle:
+            for index in range(library().focal_mesh_part_count(handle)):
+                call("focal_mesh_get_part", handle, index, ctypes.byref(struct))
+                found.append(Part(range(struct.first_vertex, struct.first_vertex + struct.vertex_count),
+                                  range(struct.first_triangle, struct.first_triangle + struct.triangle_count)))
+        return found
 
     @classmethod
     def load(cls, path: str | os.PathLike[str], *, weld: bool | None = None, drop_degenerate: bool | None = None,
@@ -321,3 +352,13 @@ def marked_point(mesh: Mesh, mark: Mark, name: str) -> _abi.focal_surface_point:
     elif _is_position(mark):
         mark = mesh.closest_point(mark)
     return surface_point(mark, name)
+
+
+def _described(vertices: Any, faces: Any) -> _abi.focal_mesh_desc:
+    positions = block_of(vertices, "vertices", "f", 3)
+    indices = block_of(faces, "faces", "I", 3)
+    desc = new(_abi.focal_mesh_desc)
+    desc.positions, desc.vertex_count = positions.pointer, positions.rows
+    desc.indices, desc.index_count = indices.pointer, 3 * indices.rows
+    desc._blocks = positions, indices  # their memory lives as long as the struct
+    return desc

@@ -24,7 +24,7 @@ class Model(Handle):
     _info: dict[str, Any] | None = None  # to count its bytes the library writes the whole model
 
     def __init__(self) -> None:
-        raise TypeError("make a Model with Model.train, Model.load or Model.from_bytes")
+        raise TypeError("make a Model with Model.load_stock, Model.train, Model.load or Model.from_bytes")
 
     @classmethod
     def train(cls, training_set: TrainingSet, *, preset: _abi.Preset | str | None = None,
@@ -80,11 +80,24 @@ class Model(Handle):
         return cls._adopt(create("focal_model_load", _abi.focal_model, running._handle, file), running)
 
     @classmethod
+    def load_stock(cls, name: str, *, context: Context | None = None) -> Model:
+        """One of the models that come with focal, by its name: focal.stock_models() lists them. Error: FILE_NOT_FOUND (no
+        such stock model: the hint names those there are), and those of load()."""
+        if not isinstance(name, str):
+            raise TypeError(f"name must be a str, not {type(name).__name__}")
+        running = context_or_default(context)
+        return cls._adopt(create("focal_model_load_stock", _abi.focal_model, running._handle, name.encode("utf-8")), running)
+
+    @classmethod
     def from_bytes(cls, data: Any, *, context: Context | None = None) -> Model:
         """From what to_bytes() gave (bytes-like). Errors as load()."""
         memory, running = bytes_of(data), context_or_default(context)
         return cls._adopt(create("focal_model_load_memory", _abi.focal_model, running._handle, memory, len(memory)),
                           running)
+
+    def _facts(self) -> str:
+        joints = library().focal_model_joint_count(self._handle)
+        return f"{joints} joints" if joints else ""  # to count landmarks the library writes the whole model
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes the model's file, whole or not at all. Error: IO, FILE_NOT_FOUND (no such folder)."""

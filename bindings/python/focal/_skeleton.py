@@ -3,16 +3,19 @@ from __future__ import annotations
 
 import ctypes
 import json
+import math
 import os
 from dataclasses import dataclass
-from typing import Any, Mapping
+from typing import Any, Mapping, Sequence
 
 from . import _abi
-from ._arrays import empty, result
-from ._handle import Handle
-from ._library import call
-from ._mesh import placed
-from ._values import as_dict, choice, fill, floats, new, path_text, text
+from ._arrays import Block, block_of, empty, result
+from ._context import Context, context_or_default
+from ._handle import Handle, handle_of
+from ._library import call, create
+from ._mesh import Mesh, placed
+from ._task import Progress, Task, run
+from ._values import as_dict, choice, fill, floats, integer, new, path_text, text
 
 
 @dataclass(frozen=True)
@@ -28,13 +31,44 @@ class Joint:
 
 
 class Skeleton(Handle):
-    """Joints and skin weights, from Detection.rig."""
+    """Joints and skin weights, from Detection.rig or Skeleton.bind."""
 
     _kind = "skeleton"
     _origin = (0.0, 0.0, 0.0)  # of the mesh
 
     def __init__(self) -> None:
-        raise TypeError("make a Skeleton with Detection.rig")
+        raise TypeError("make a Skeleton with Detection.rig or Skeleton.bind")
+
+    @classmethod
+    def bind(cls, mesh: Mesh, joints: Sequence[Joint | Mapping[str, Any]] | None = None, *,
+             max_influences: int | None = None, context: Context | None = None, task: Task | None = None,
+             on_progress: Progress | None = None) -> Skeleton:
+        """Weights for a skeleton that is there, from the body alone; joints stay as they are, to the bit. No model is needed.
+
+        joints          parents first: Joint, or mappings with name, parent (a number; -1: a root), position, and where known
+                        rotation, tip, moves (False: it moves no vertex). None: those of the mesh's own file, which write()
+                        then gives other weights and changes in nothing else
+        max_influences  joints that move one vertex, 1 to 8 (default 4)
+
+        Error: INVALID_ARGUMENT (no file, or one without a skin; a joint before its parent; no joint that moves anything);
+        Cancelled.
+        """
+        given, running = handle_of(mesh, Mesh, "mesh"), context_or_default(context)
+        params = fill(new(_abi.focal_bind_params), max_influences=max_influences)
+        if joints is not None:
+            _put_joints(params, joints, mesh.origin)
+
+        def bind(task_handle: Any) -> Skeleton:
+            made = cls._adopt(create("focal_skeleton_bind", _abi.focal_skeleton, running._handle, given,
+                                     ctypes.byref(params), task_handle), running)
+            made._origin = mesh.origin
+            return made
+
+        return run(bind, task, on_progress)
+
+    def _facts(self) -> str:
+        info = self.info
+        return f"{info['joint_count']} joints, {info['verdict'].name.lower()}, quality {info['quality']:.2f}"
 
     @property
     def joints(self) -> list[Joint]:
@@ -88,9 +122,34 @@ class Skeleton(Handle):
         Detection.write."""
         call("focal_skeleton_write_gltf", self._handle, path_text(path))
 
+    def write_vrm(self, path: str | os.PathLike[str], meta: Mapping[str, Any]) -> None:
+        """Writes a VRM 1.0 avatar: what write() writes, with the humanoid map by the joints' roles and VRM's meta data, of which name
+        and authors (a list) are needed. VRM wants a T-pose. Error: INVALID_ARGUMENT (a joint that VRM requires is missing; no name
+        or authors), and those of write."""
+        call("focal_skeleton_write_vrm", self._handle, text(json.dumps(_mapping(meta, "meta")), "meta"), path_text(path))
 
-def skeleton_params(known: list[str], *, names: Any, joint_names: Any, skeleton_template: Any,
-                    **fields: Any) -> _abi.focal_skeleton_params:
+
+def _put_joints(params: _abi.focal_bind_params, joints: Sequence[Joint | Mapping[str, Any]],
+                origin: tuple[float, float, float]) -> None:
+    rows = [vars(joint) if isinstance(joint, Joint) else _mapping(joint, "each joint") for joint in joints]
+    for row in rows:
+        missing = {"name", "parent", "position"} - set(row)
+        if missing:
+            raise ValueError(f"a joint lacks {', '.join(sorted(missing))}")
+    params.joint_names = (ctypes.c_char_p * max(1, len(rows)))(*[text(row["name"], "each joint name") for row in rows])
+    params.joint_count = len(rows)
+    params.joint_parents = (ctypes.c_int32 * max(1, len(rows)))(*[integer(row["parent"], "parent") for row in rows])
+    params.joint_moves = (ctypes.c_int32 * max(1, len(rows)))(*[bool(row.get("moves", True)) for row in rows])
+    start = tuple(-x for x in origin)
+    blocks = [block_of([placed(row["position"], start) for row in rows], "position", "f", 3),
+              block_of([tuple(row.get("rotation") or (0, 0, 0, 1)) for row in rows], "rotation", "f", 4),
+              block_of([placed(row.get("tip") or (math.nan,) * 3, start) for row in rows], "tip", "f", 3)]
+    params.joint_positions, params.joint_rotations, params.joint_tips = (block.pointer for block in blocks)
+    params._blocks = blocks  # their memory lives as long as the struct
+
+
+def skeleton_params(known: list[str], *, names: Any, joint_names: Any, skeleton_template: Any, fixed_joints: Any,
+                    origin: tuple[float, float, float], **fields: Any) -> _abi.focal_skeleton_params:
     """known: the model's joint names, which a mapping of names is looked up in."""
     if names is not None:
         names = choice(_abi.BoneNames, names, "names")
@@ -100,6 +159,11 @@ def skeleton_params(known: list[str], *, names: Any, joint_names: Any, skeleton_
     params = fill(new(_abi.focal_skeleton_params), names=names, skeleton_template=skeleton_template, **fields)
     if animations is not None:
         params.animations = animations
+    if fixed_joints is not None:
+        own = known if params.skeleton_template is None else _template_joints(params.skeleton_template)
+        places = _fixed_places(own, _mapping(fixed_joints, "fixed_joints"), origin)
+        params.fixed_joints, params.fixed_joint_count = places.pointer, places.rows
+        params._fixed_places = places  # its memory lives as long as the struct
     if joint_names is not None:
         texts = _joint_texts(known, joint_names)
         params.joint_names = (ctypes.c_char_p * len(texts))(*texts)
@@ -107,9 +171,29 @@ def skeleton_params(known: list[str], *, names: Any, joint_names: Any, skeleton_
     return params
 
 
+def _template_joints(template: bytes) -> list[str]:
+    """In order; what is wrong with a template the library says."""
+    try:
+        return [str(joint["name"]) for joint in json.loads(template)["joints"]]
+    except (ValueError, KeyError, TypeError):
+        return []
+
+
+def _fixed_places(known: list[str], fixed: Mapping[str, Any], origin: tuple[float, float, float]) -> Block:
+    for name in fixed:
+        if name not in known:
+            raise ValueError(f"{name!r} is no joint of the skeleton: {', '.join(known)}")
+    unknown = (math.nan,) * 3
+    given = block_of([tuple(fixed.get(name, unknown)) for name in known], "fixed_joints", "f", 3)  # refused as they were given
+    if not any(origin):
+        return given
+    places = [placed(fixed.get(name, unknown), tuple(-x for x in origin)) for name in known]
+    return block_of(places, "fixed_joints", "f", 3)
+
+
 def _mapping(value: Any, name: str) -> dict[str, Any]:
     if not isinstance(value, Mapping):
-        raise TypeError(f"{name} must be JSON text or a mapping, not {type(value).__name__}")
+        raise TypeError(f"{name} must be a mapping, not {type(value).__name__}")
     return dict(value)
 
 

@@ -1,0 +1,69 @@
+// Other weights for the skins that a file has: joints, matrices and all else stay.
+#include <algorithm>
+#include <map>
+
+#include "gltf/document_edit.h"
+#include "gltf/skin_data.h"
+
+namespace focal {
+namespace {
+
+bool has_skin(const GltfPrimitive& primitive) { return primitive.skin >= 0 && !primitive.is_scenery; }
+
+// Per joint of the rig its number in a skin, or that of the nearest joint above it that the skin has; -1: it has neither.
+std::vector<int32_t> numbers_in(const OrderedJson& skin, const std::vector<Joint>& joints) {
+  std::map<int32_t, int32_t> number;
+  int32_t index = 0;
+  for (const OrderedJson& node : skin["joints"]) number.emplace(node.get<int32_t>(), index++);
+  std::vector<int32_t> result;
+  for (const Joint& joint : joints) {
+    const auto own = number.find(joint.node);
+    result.push_back(own != number.end() ? own->second : joint.parent >= 0 ? result[joint.parent] : -1);
+  }
+  return result;
+}
+
+// The influences of a primitive's vertices in the numbers of its skin.
+void renumber(const GltfPrimitive& primitive, const std::vector<int32_t>& numbers, Rig& rig) {
+  const size_t most = (rig.more.empty() ? 1 : 2) * most_influences;
+  for (int32_t i = 0; i < primitive.vertex_count; ++i) {
+    const auto v = static_cast<size_t>(primitive.first_vertex + i);
+    std::vector<Influence> all;
+    for (auto* set : {&rig.influences, &rig.more}) {
+      if (set->empty()) continue;
+      for (const Influence& one : (*set)[v])
+        if (one.weight > 0 && numbers[one.joint] >= 0) all.push_back({numbers[one.joint], one.weight});
+      (*set)[v] = {};
+    }
+    all = heaviest(all, most);
+    for (size_t k = 0; k < all.size(); ++k)
+      (k < most_influences ? rig.influences : rig.more)[v][k % most_influences] = all[k];
+  }
+}
+
+// Joints of the result: as many as the largest of the skins has, which is what the width of their numbers follows from.
+Rig in_numbers_of_skins(OrderedJson& root, std::span<const GltfPrimitive> primitives, const Rig& rig) {
+  Rig result = rig;
+  for (const GltfPrimitive& primitive : primitives) {
+    if (!has_skin(primitive)) continue;
+    const OrderedJson& skin = root["skins"][static_cast<size_t>(primitive.skin)];
+    renumber(primitive, numbers_in(skin, rig.joints), result);
+    result.joints.resize(std::max(result.joints.size(), skin["joints"].size()));
+  }
+  return result;
+}
+
+}  // namespace
+
+void GltfDocument::replace_weights(std::span<const GltfPrimitive> primitives, const Rig& rig) {
+  Edited& edited = this->edited();
+  const Rig of_skins = in_numbers_of_skins(edited.document.root(), primitives, rig);
+  const GltfRig given{&of_skins, {}};
+  SkinData data(edited.document.root(), given, opened_->view, opened_->buffers(), opened_->container);
+  data.begin();
+  for (const GltfPrimitive& primitive : primitives)
+    if (has_skin(primitive)) data.add_weights(primitive);
+  edited.bin = data.finish();
+}
+
+}  // namespace focal

@@ -1,0 +1,91 @@
+#include "skeleton/fixed_joints.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+namespace focal {
+namespace {
+
+constexpr double least_length = 1e-9;  // of a bone that has a direction
+
+// Per joint the length of the bone to its parent, no shorter than a trifle of the reach.
+std::vector<double> bone_lengths(const MovableSkeleton& skeleton, double reach) {
+  std::vector<double> length(skeleton.place.size(), 0);
+  for (size_t j = 0; j < length.size(); ++j)
+    if (const int32_t p = skeleton.parent[j]; p >= 0)
+      length[j] = std::max((skeleton.place[j] - skeleton.place[p]).norm(), 1e-4 * reach);
+  return length;
+}
+
+// The linear system of the sum is a tree: eliminated from the leaves to the roots, solved back. Quadratic elements of the bones, their
+// lengths lumped at the joints.
+std::vector<Vector3> displacements(const FixedJoints& fixed, double reach, const MovableSkeleton& skeleton) {
+  const size_t count = skeleton.place.size();
+  const std::vector<double> length = bone_lengths(skeleton, reach);
+  std::vector<double> pull(count, 0), diagonal(count, 1e-9 * reach);
+  for (size_t j = 0; j < count; ++j) {
+    const int32_t p = skeleton.parent[j];
+    if (p < 0) continue;
+    pull[j] = reach * reach / length[j];
+    diagonal[j] += pull[j] + length[j] / 2, diagonal[p] += pull[j] + length[j] / 2;
+  }
+  std::vector<Vector3> right(count, Vector3::Zero()), moved(count, Vector3::Zero());
+  for (size_t j = count; j-- > 0;) {
+    const int32_t p = skeleton.parent[j];
+    if (fixed[j]) moved[j] = *fixed[j] - skeleton.place[j];
+    if (p < 0) continue;
+    right[p] += pull[j] * (fixed[j] ? moved[j] : Vector3(right[j] / diagonal[j]));
+    if (!fixed[j]) diagonal[p] -= pull[j] * pull[j] / diagonal[j];
+  }
+  for (size_t j = 0; j < count; ++j) {
+    if (fixed[j]) continue;
+    const int32_t p = skeleton.parent[j];
+    moved[j] = (right[j] + (p >= 0 ? Vector3(pull[j] * moved[p]) : Vector3::Zero())) / diagonal[j];
+  }
+  return moved;
+}
+
+// Where the bones of each joint lead in the mean; to its tip where there are none.
+std::vector<Vector3> directions(const MovableSkeleton& skeleton) {
+  std::vector<Vector3> way(skeleton.place.size(), Vector3::Zero());
+  for (size_t j = 0; j < way.size(); ++j)
+    if (const int32_t p = skeleton.parent[j]; p >= 0) way[p] += skeleton.place[j] - skeleton.place[p];
+  for (size_t j = 0; j < way.size(); ++j)
+    if (way[j].isZero()) way[j] = skeleton.tip[j] - skeleton.place[j];
+  return way;
+}
+
+}  // namespace
+
+void follow(const FixedJoints& fixed, double reach, const MovableSkeleton& skeleton) {
+  if (fixed.empty()) return;
+  const std::vector<Vector3> moved = displacements(fixed, reach, skeleton);
+  const std::vector<Vector3> before = directions(skeleton);
+  for (size_t j = 0; j < moved.size(); ++j) skeleton.place[j] += moved[j], skeleton.tip[j] += moved[j];
+  const std::vector<Vector3> after = directions(skeleton);
+  for (size_t j = 0; j < moved.size(); ++j) {
+    if (fixed[j]) skeleton.place[j] = *fixed[j];
+    if (before[j].norm() > least_length && after[j].norm() > least_length)
+      skeleton.turn[j] =
+          Eigen::Quaterniond::FromTwoVectors(before[j], after[j]).toRotationMatrix() * skeleton.turn[j];
+  }
+}
+
+void follow(const FixedJoints& fixed, double reach, CharacterRig& character) {
+  if (fixed.empty()) return;
+  auto& joints = character.rig.joints;
+  std::vector<int32_t> parent;
+  std::vector<Vector3> place;
+  std::vector<Matrix3> turn;
+  for (const Joint& joint : joints) {
+    parent.push_back(joint.parent), place.push_back(joint.bind.topRightCorner<3, 1>());
+    turn.push_back(joint.bind.topLeftCorner<3, 3>());
+  }
+  follow(fixed, reach, {parent, place, character.tip, turn});
+  for (size_t j = 0; j < joints.size(); ++j) {
+    joints[j].bind.topRightCorner<3, 1>() = place[j], joints[j].bind.topLeftCorner<3, 3>() = turn[j];
+    if (fixed[j]) character.confidence[j] = 1;
+  }
+}
+
+}  // namespace focal
