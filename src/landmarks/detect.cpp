@@ -222,6 +222,8 @@ Detection detect(std::shared_ptr<const LandmarkModel> model, const SurfaceAnalys
   result.maps = std::move(placement.maps), result.map_residual = placement.map_residual;
   result.bulge_agreement = placement.bulge_agreement, result.runner_up = placement.runner_up;
   result.frame = placement.frame;
+  result.has_fixed =
+      std::any_of(params.fixed.begin(), params.fixed.end(), [](const auto& one) { return one.has_value(); });
   result.category_fit = judgement.category_fit;
   if (const char* warning = analysis.metric->warning()) result.warnings.emplace_back(warning);
   if (!paper && !analysis.proxy.full->is_oriented)

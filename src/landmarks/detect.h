@@ -50,6 +50,7 @@ struct Detection {
   float map_residual = 0, bulge_agreement = 0;  // see Placement
   double runner_up = 0;
   Matrix3 frame = Matrix3::Identity();  // likewise
+  bool has_fixed = false;               // places of landmarks were given, so how the body faces is known
   RowMatrixf votes;  // landmarks x vertices of proxy.coarse->surface, each row's largest is 1; may be empty
   double category_fit = 0;            // 0..1
   std::vector<std::string> warnings;  // beside those of the mesh

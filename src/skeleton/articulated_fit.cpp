@@ -356,7 +356,7 @@ void ArticulatedFit::run(const FitRounds& rounds, const std::vector<int32_t>& im
         add_point(posture, i, trusted * Matrix3::Identity(), gap, system);
       }
     add_bones(posture, system);
-    move(-system.matrix.selfadjointView<Eigen::Lower>().ldlt().solve(system.gradient), posture);
+    move(-system.matrix.selfadjointView<Eigen::Lower>().llt().solve(system.gradient), posture);
   }
   for (size_t j = 0; j < skeleton_.size(); ++j)
     if (has(j) && moving_[slot_[j]] != static_cast<int32_t>(j)) {

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "landmarks/shape_starts.h"
 #include "skeleton/character_rig.h"
@@ -34,7 +35,8 @@ class Fitting {
         model_(*detection.model),
         start_(start),
         execution_(execution),
-        target_(detection.analysis->surface()) {
+        target_(detection.analysis->surface()),
+        fits_(model_.atlas.size()) {
     std::vector<Joint> joints;
     for (const SkeletonJoint& joint : start.joints) joints.push_back({joint.name, joint.parent});
     counterpart_ = other_sides(joints);
@@ -45,13 +47,16 @@ class Fitting {
   }
 
   // Appends the fits, in the order of the starts.
-  void add(const std::vector<Start>& starts, const FitRounds& rounds, std::vector<FittedShape>& fits) const {
+  void add(const std::vector<Start>& starts, const FitRounds& rounds, std::vector<FittedShape>& fits) {
     static const std::vector<int32_t> no_images;
+    std::vector<int32_t> shapes;
+    for (const Start& from : starts) shapes.push_back(from.shape);
+    make_fits(shapes);
     const size_t before = fits.size();
     fits.resize(before + starts.size());
     parallel_for(execution_, static_cast<int64_t>(starts.size()), [&](int64_t i) {
       const Start& from = starts[i];
-      const ArticulatedFit fit = fit_of(from.shape);
+      const ArticulatedFit& fit = *fits_[from.shape];
       FittedShape& one = fits[before + i];
       one.shape = from.shape, one.posture = from.posture;
       fit.run(rounds, from.images ? *from.images : no_images, one.posture);
@@ -87,15 +92,20 @@ class Fitting {
     return starts;
   }
 
-  // Training shapes as they stand, with the extents of the body, facing either way.
-  std::vector<Start> laid_over() const {
+  // Training shapes as they stand, with the extents of the body, facing as it does or either way.
+  std::vector<Start> laid_over(bool either_way) {
     const SurfaceAnalysis& analysis = *detection_.analysis;
     const Matrix3 about_up = Eigen::AngleAxisd(EIGEN_PI, Vector3::UnitY()).toRotationMatrix();
     std::vector<Start> starts;
-    for (const Matrix3& frame : {detection_.frame, Matrix3(about_up * detection_.frame)})
-      for (const int32_t shape :
-           lay_shapes_over(model_, analysis, frame, most_laid_over, 0, execution_).exemplars)
-        if (model_.atlas[shape].rig) starts.push_back({shape, as_it_stands(shape, frame)});
+    std::vector<Matrix3> frames{detection_.frame};
+    if (either_way) frames.push_back(about_up * detection_.frame);
+    for (const Matrix3& frame : frames) {
+      std::vector<int32_t> shapes =
+          lay_shapes_over(model_, analysis, frame, most_laid_over, 0, execution_).exemplars;
+      std::erase_if(shapes, [&](int32_t shape) { return !model_.atlas[shape].rig; });
+      make_fits(shapes);
+      for (const int32_t shape : shapes) starts.push_back({shape, as_it_stands(shape, frame)});
+    }
     std::vector<FittedShape> fits;
     add(starts, glance, fits);
     keep_best(fits, most_kept_over);
@@ -116,7 +126,7 @@ class Fitting {
   }
 
   void finish(FittedShape& one) const {
-    const ArticulatedFit fit = fit_of(one.shape);
+    const ArticulatedFit& fit = *fits_[one.shape];
     one.points = fit.points(one.posture);
     for (size_t j = 0; j < start_.place.size(); ++j)
       one.tip.push_back(fit.has(j) ? fit.carried(one.posture, j, model_.atlas[one.shape].rig->tip[j])
@@ -130,8 +140,15 @@ class Fitting {
   }
 
  private:
-  ArticulatedFit fit_of(int32_t shape) const {
-    return {start_.joints, model_.atlas[shape], counterpart_, target_};
+  // Those of the shapes that are not there yet.
+  void make_fits(std::vector<int32_t> shapes) {
+    std::sort(shapes.begin(), shapes.end());
+    shapes.erase(std::unique(shapes.begin(), shapes.end()), shapes.end());
+    std::erase_if(shapes, [&](int32_t shape) { return fits_[shape] != nullptr; });
+    parallel_for(execution_, static_cast<int64_t>(shapes.size()), [&](int64_t i) {
+      const int32_t s = shapes[i];
+      fits_[s] = std::make_unique<ArticulatedFit>(start_.joints, model_.atlas[s], counterpart_, target_);
+    });
   }
 
   Posture unmoved() const {
@@ -163,7 +180,7 @@ class Fitting {
 
   Posture as_it_stands(int32_t shape, const Matrix3& frame) const {
     const AtlasShape& of = model_.atlas[shape];
-    const ArticulatedFit fit = fit_of(shape);
+    const ArticulatedFit& fit = *fits_[shape];
     const Vector area = of.samples.weight.head(of.positions.rows()).cast<double>();
     const MatrixX3 body = target_.positions * frame.transpose();
     const Spread here = spread_of(body, target_.area), there = spread_of(of.positions, area / area.sum());
@@ -199,6 +216,7 @@ class Fitting {
   const Execution& execution_;
   FitTarget target_;
   std::vector<int32_t> counterpart_;
+  std::vector<std::unique_ptr<const ArticulatedFit>> fits_;  // per shape of the atlas, those made so far
 };
 
 double apart(const std::vector<Vector3>& a, const std::vector<Vector3>& b) {
@@ -212,9 +230,10 @@ double agreement_of(const std::vector<Vector3>& a, const std::vector<Vector3>& b
 }
 
 // Those that face the way that the best of them says, the best first.
-void choose_heading(const Fitting& fitting, BodyFit& result) {
+void choose_heading(const Fitting& fitting, bool may_reverse, BodyFit& result) {
   std::vector<FittedShape> kept[2];
-  for (FittedShape& one : result.shapes) kept[fitting.is_reversed(one) ? 1 : 0].push_back(std::move(one));
+  for (FittedShape& one : result.shapes)
+    kept[may_reverse && fitting.is_reversed(one) ? 1 : 0].push_back(std::move(one));
   for (auto& fits : kept) Fitting::keep_best(fits, fits.size());
   if (!kept[0].empty() && !kept[1].empty()) {
     const double ratio = kept[1][0].residual / kept[0][0].residual;
@@ -229,15 +248,16 @@ void choose_heading(const Fitting& fitting, BodyFit& result) {
 }  // namespace
 
 BodyFit fit_to_body(const Detection& detection, const std::vector<ShapeMap>& maps,
-                    const PlacedSkeleton& start, const Execution& execution) {
-  const Fitting fitting(detection, start, execution);
+                    const PlacedSkeleton& start, bool may_reverse, const Execution& execution) {
+  Fitting fitting(detection, start, execution);
   BodyFit result;
   fitting.add(fitting.from_maps(maps), from_maps, result.shapes);
-  if (detection.model->params.oriented && fitting.has_sides() && detection.bulge_agreement < sure_bulge) {
-    fitting.add(fitting.reversed(result.shapes), from_posture, result.shapes);
-    fitting.add(fitting.laid_over(), from_posture, result.shapes);
+  if (detection.model->params.oriented && detection.bulge_agreement < sure_bulge) {
+    may_reverse = may_reverse && fitting.has_sides();
+    if (may_reverse) fitting.add(fitting.reversed(result.shapes), from_posture, result.shapes);
+    fitting.add(fitting.laid_over(may_reverse), from_posture, result.shapes);
   }
-  choose_heading(fitting, result);
+  choose_heading(fitting, may_reverse, result);
   double sum = 0;
   const FittedShape& best = result.shapes[0];
   for (FittedShape& one : result.shapes) {

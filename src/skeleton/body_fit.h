@@ -27,9 +27,10 @@ struct BodyFit {
   double heading_margin = std::numeric_limits<double>::infinity();
 };
 
-// start: where the maps suppose the joints. maps: of rigged shapes, not empty.
+// start: where the maps suppose the joints. maps: of rigged shapes, not empty. may_reverse: the body may face the other way than they
+// suppose.
 BodyFit fit_to_body(const Detection& detection, const std::vector<ShapeMap>& maps,
-                    const PlacedSkeleton& start, const Execution& execution);
+                    const PlacedSkeleton& start, bool may_reverse, const Execution& execution);
 
 // The maps that fits amount to.
 std::vector<ShapeMap> maps_of_fits(const BodyFit& fit, const LandmarkModel& model,

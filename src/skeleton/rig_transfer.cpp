@@ -326,8 +326,11 @@ CharacterRig transfer_rig(const Detection& detection, const Execution& execution
   CharacterRig result;
   std::vector<std::string> said_again;
   const Joints mapped = agreed_joints(model.skeleton, opinions, said_again);
-  const BodyFit fit =
-      fit_to_body(detection, maps, on_analysed(model.skeleton, mapped, analysis.proxy), execution);
+  const bool may_reverse =
+      model.params.finds_heading && !detection.has_fixed &&
+      std::none_of(fixed.begin(), fixed.end(), [](const auto& one) { return one.has_value(); });
+  const BodyFit fit = fit_to_body(detection, maps, on_analysed(model.skeleton, mapped, analysis.proxy),
+                                  may_reverse, execution);
   add_fits(fit, model, analysis.proxy, opinions);
   result.surface_distance = fit.shapes[0].residual, result.heading_margin = fit.heading_margin;
   Joints joints = agreed_joints(model.skeleton, opinions, result.warnings);

@@ -1,0 +1,90 @@
+// Joints by fitted training characters: better than what they start from, and right where that has the sides exchanged.
+#include "skeleton/body_fit.h"
+
+#include <doctest/doctest.h>
+
+#include "skeleton/character_rig.h"
+#include "skeleton/rig_transfer.h"
+#include "skeleton/small_rig.h"
+
+using namespace focal;
+using namespace focal_test;
+
+namespace {
+
+// A humanoid of another build and pose than the model's, and its joints on the analysed surface.
+struct Body {
+  Detection detection;
+  std::vector<Vector3> truth;
+  std::vector<int32_t> counterpart;
+  PlacedSkeleton start;  // as they are
+
+  explicit Body(uint64_t seed) : start{rig_model()->skeleton, {}, {}, {}} {
+    const creatures::Character character = humanoid(seed);
+    detection = detect(rig_model(), mesh_of(character.posed, character), {}, execution);
+    detection.bulge_agreement = 0;  // everything is tried
+    const ToCaller to_caller(*detection.analysis);
+    std::vector<Joint> joints;
+    for (const SkeletonJoint& joint : rig_model()->skeleton) {
+      joints.push_back({joint.name, joint.parent});
+      const auto& made = character.skeleton.joints;
+      for (size_t k = 0; k < made.size(); ++k)
+        if (made[k].name == joint.name) {
+          truth.push_back((character.pose[k] * made[k].rest - to_caller.offset) / to_caller.scale);
+          start.turn.push_back(character.pose[k].linear());
+        }
+    }
+    REQUIRE(truth.size() == joints.size());
+    counterpart = other_sides(joints);
+    start.place = start.tip = truth;
+  }
+
+  double error(const BodyFit& fit) const {
+    double sum = 0;
+    for (size_t j = 0; j < truth.size(); ++j) sum += (fit.shapes[0].posture.place[j] - truth[j]).norm();
+    return sum / static_cast<double>(truth.size());
+  }
+  BodyFit fit(bool may_reverse) const {
+    return fit_to_body(detection, detection.maps, start, may_reverse, execution);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("fits end near the joints of another body, and leave the heading that is right") {
+  const Body body(11);
+  const BodyFit fit = body.fit(true);
+  CHECK_FALSE(fit.is_reversed);
+  CHECK(fit.heading_margin > 0.02);
+  CHECK(fit.start_share > 0);
+  CHECK(body.error(fit) < 0.04);
+  for (size_t i = 1; i < fit.shapes.size(); ++i) CHECK(fit.shapes[i].residual >= fit.shapes[0].residual);
+}
+
+TEST_CASE("a start whose sides are exchanged is corrected, unless the heading is known") {
+  Body body(11);
+  const PlacedSkeleton right = body.start;
+  for (size_t j = 0; j < right.place.size(); ++j) {
+    const size_t from = body.counterpart[j] < 0 ? j : static_cast<size_t>(body.counterpart[j]);
+    body.start.place[j] = right.place[from];
+    body.start.turn[j] = right.turn[from] * Vector3(-1, 1, -1).asDiagonal();
+  }
+  CHECK(body.fit(true).is_reversed);
+  CHECK(body.error(body.fit(true)) < 0.05);
+  CHECK_FALSE(body.fit(false).is_reversed);
+}
+
+TEST_CASE("maps of fits lead from the points to where they lie") {
+  const Body body(11);
+  const BodyFit fit = body.fit(true);
+  const auto maps = maps_of_fits(fit, *rig_model(), *body.detection.analysis, execution);
+  REQUIRE(maps.size() == fit.shapes.size());
+  for (size_t m = 0; m < maps.size(); ++m) {
+    CHECK(maps[m].shape == fit.shapes[m].shape);
+    REQUIRE(static_cast<Eigen::Index>(maps[m].map.image.size()) == fit.shapes[m].points.rows());
+    for (Eigen::Index i = 0; i < fit.shapes[m].points.rows(); ++i)
+      CHECK((body.detection.analysis->surface().positions.row(maps[m].map.image[i]) -
+             fit.shapes[m].points.row(i))
+                .norm() < 0.3);
+  }
+}
