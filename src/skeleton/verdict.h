@@ -20,8 +20,8 @@ struct RigMeasures {
   double bulge_agreement = unknown;  // likewise
   double runner_up = unknown;        // how much more another configuration costs; infinite: none came near
   double surface_distance = unknown, heading_margin = unknown;  // see CharacterRig
-  double joint_spread = unknown;     // mean over the joints of 1 - confidence
-  double absent_share = unknown;     // joints without a found landmark
+  double joint_spread = unknown;                                // mean over the joints of 1 - confidence
+  double absent_share = unknown;                                // joints without a found landmark
   double uncovered =
       unknown;  // of sqrt(area): how far a twentieth of the mesh lies, at least, from a training character that the joints pose
   // What needs no learning: a skeleton with any of these is crumpled.
