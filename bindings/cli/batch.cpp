@@ -168,9 +168,7 @@ void add_batch(CLI::App& app) {
   CLI::App* verb =
       app.add_subcommand("batch", "Put a model to every mesh of a folder; goes on where it stopped");
   const auto options = std::make_shared<Options>();
-  verb->add_option("MODEL", options->model, "Model file, or the name of a stock model: focal models")
-      ->type_name("")
-      ->required();
+  add_model_argument(*verb, options->model);
   verb->add_option("FOLDER", options->input, "Folder with .glb and .gltf files")->type_name("")->required();
   verb->add_option(
           "-o,--output", options->output,

@@ -83,9 +83,7 @@ void correspond(const Options& options) {
 void add_correspond(CLI::App& app) {
   CLI::App* verb = app.add_subcommand("correspond", "Find which point of one mesh is which of another");
   const auto options = std::make_shared<Options>();
-  verb->add_option("MODEL", options->model, "Model file, or the name of a stock model: focal models")
-      ->type_name("")
-      ->required();
+  add_model_argument(*verb, options->model);
   verb->add_option("A", options->from, "glTF file: each of its landmarks or vertices ...")
       ->type_name("")
       ->required();

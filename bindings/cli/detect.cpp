@@ -159,9 +159,7 @@ void detect(const Options& options) {
 void add_detect(CLI::App& app) {
   CLI::App* verb = app.add_subcommand("detect", "Find a model's landmarks on a mesh");
   const auto options = std::make_shared<Options>();
-  verb->add_option("MODEL", options->model, "Model file, or the name of a stock model: focal models")
-      ->type_name("")
-      ->required();
+  add_model_argument(*verb, options->model);
   verb->add_option("MESH", options->mesh, "glTF file, .glb or .gltf")->type_name("")->required();
   verb->add_option(
           "-o,--output", options->output,

@@ -102,9 +102,7 @@ void evaluate(const Options& options) {
 void add_eval(CLI::App& app) {
   CLI::App* verb = app.add_subcommand("eval", "Measure a model on the marked meshes of a set");
   const auto options = std::make_shared<Options>();
-  verb->add_option("MODEL", options->model, "Model file, or the name of a stock model: focal models")
-      ->type_name("")
-      ->required();
+  add_model_argument(*verb, options->model);
   verb->add_option("SET", options->set, "Folder with set.json, NAME.glb and NAME.landmarks.json")
       ->type_name("")
       ->required();

@@ -97,6 +97,12 @@ Model load_model(const focal_context* context, const std::string& path_or_name) 
   throw CommandError("there is no model file or stock model '" + path_or_name + "'", model_hint(context));
 }
 
+void add_model_argument(CLI::App& verb, std::string& path_or_name) {
+  verb.add_option("MODEL", path_or_name, "Model file, or the name of a stock model: focal models")
+      ->type_name("")
+      ->required();
+}
+
 void add_models(CLI::App& app) {
   CLI::App* verb = app.add_subcommand("models", "List the stock models, which are used by name");
   const auto options = std::make_shared<CommonOptions>();

@@ -66,9 +66,7 @@ void segment(const Options& options) {
 void add_segment(CLI::App& app) {
   CLI::App* verb = app.add_subcommand("segment", "Divide a mesh into parts under the model's names");
   const auto options = std::make_shared<Options>();
-  verb->add_option("MODEL", options->model, "Model file, or the name of a stock model: focal models")
-      ->type_name("")
-      ->required();
+  add_model_argument(*verb, options->model);
   verb->add_option("MESH", options->mesh, "glTF file, .glb or .gltf")->type_name("")->required();
   verb->add_option("-o,--output", options->output,
                    "The mesh with its parts as vertex colours; OUT.labels.json beside it gets a label for "

@@ -14,26 +14,11 @@ constexpr double most_stretch = 0.4;      // logarithm of what one axis is scale
 constexpr float mark_radius =
     0.05f;  // of sqrt(area), beyond the nearest point: within it points say where a mark lies
 
-struct Cloud {
-  MatrixX3 positions;
-  Vector weight;
-
-  Vector3 mean() const { return positions.transpose() * weight / weight.sum(); }
-  Vector3 deviation() const {
-    const Vector3 centre = mean();
-    const MatrixX3 away = positions.rowwise() - centre.transpose();
-    return ((away.array().square().matrix().transpose() * weight) / weight.sum()).array().sqrt();
-  }
-};
-
 // The shape's points with the mean and, within limits, the extents of the other.
-MatrixX3 laid_over(const Cloud& shape, const Vector3& mean, const Vector3& deviation) {
-  Vector3 scale = deviation.cwiseQuotient(shape.deviation().cwiseMax(1e-9)).cwiseMax(1e-9);
-  const double all = std::cbrt(scale.prod());
-  for (double& one : scale)
-    one = all * std::exp(std::clamp(std::log(one / all), -most_stretch, most_stretch));
-  return ((shape.positions.rowwise() - shape.mean().transpose()) * scale.asDiagonal()).rowwise() +
-         mean.transpose();
+MatrixX3 laid_over(const MatrixX3& points, const Vector& weight, const Extents& other) {
+  const Extents own = extents_of(points, weight);
+  return ((points.rowwise() - own.mean.transpose()) * scale_onto(own, other).asDiagonal()).rowwise() +
+         other.mean.transpose();
 }
 
 // Mean distance of every so many points from the nearest of a tree.
@@ -79,6 +64,20 @@ std::vector<SurfacePoint> places_by(const AtlasShape& shape, float reach, const 
 
 }  // namespace
 
+Extents extents_of(const MatrixX3& points, const Vector& weight) {
+  const Vector3 mean = points.transpose() * weight / weight.sum();
+  const MatrixX3 away = points.rowwise() - mean.transpose();
+  return {mean, ((away.array().square().matrix().transpose() * weight) / weight.sum()).array().sqrt()};
+}
+
+Vector3 scale_onto(const Extents& shape, const Extents& other) {
+  Vector3 scale = other.deviation.cwiseQuotient(shape.deviation.cwiseMax(1e-9)).cwiseMax(1e-9);
+  const double all = std::cbrt(scale.prod());
+  for (double& one : scale)
+    one = all * std::exp(std::clamp(std::log(one / all), -most_stretch, most_stretch));
+  return scale;
+}
+
 bool can_be_laid_over(const LandmarkModel& model) {
   return model.params.oriented && std::any_of(model.atlas.begin(), model.atlas.end(),
                                               [](const AtlasShape& one) { return one.positions.rows() > 0; });
@@ -89,18 +88,19 @@ ShapeStarts lay_shapes_over(const LandmarkModel& model, const SurfaceAnalysis& a
   ShapeStarts result;
   for (size_t s = 0; s < model.atlas.size(); ++s)
     if (model.atlas[s].positions.rows() > 0) result.exemplars.push_back(static_cast<int32_t>(s));
-  const Cloud body{analysis.surface().positions * frame.transpose(), analysis.operators.mass};
-  const NearestVertex tree(body.positions);
-  const Vector3 mean = body.mean(), deviation = body.deviation();
+  const MatrixX3 body = analysis.surface().positions * frame.transpose();
+  const Vector& mass = analysis.operators.mass;
+  const NearestVertex tree(body);
+  const Extents extents = extents_of(body, mass);
   std::vector<MatrixX3> laid(model.atlas.size());
   std::vector<double> apart(model.atlas.size());
   parallel_for(execution, static_cast<int64_t>(result.exemplars.size()), [&](int64_t i) {
     const int32_t s = result.exemplars[i];
     const AtlasShape& shape = model.atlas[s];
-    const Cloud cloud{shape.positions, shape.samples.weight.head(shape.positions.rows()).cast<double>()};
-    laid[s] = laid_over(cloud, mean, deviation);
+    const Vector weight = shape.samples.weight.head(shape.positions.rows()).cast<double>();
+    laid[s] = laid_over(shape.positions, weight, extents);
     const NearestVertex own(laid[s]);
-    apart[s] = mean_distance(laid[s], cloud.weight, tree) + mean_distance(body.positions, body.weight, own);
+    apart[s] = mean_distance(laid[s], weight, tree) + mean_distance(body, mass, own);
   });
   std::stable_sort(result.exemplars.begin(), result.exemplars.end(),
                    [&](int32_t a, int32_t b) { return apart[a] < apart[b]; });

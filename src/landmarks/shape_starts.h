@@ -8,6 +8,15 @@
 
 namespace focal {
 
+// The middle of weighted points, and how far they spread along each axis.
+struct Extents {
+  Vector3 mean, deviation;
+};
+Extents extents_of(const MatrixX3& points, const Vector& weight);
+
+// What points of one shape are scaled by along each axis, so that they spread as those of the other do; no axis much more than the others.
+Vector3 scale_onto(const Extents& shape, const Extents& other);
+
 struct ShapeStarts {
   std::vector<int32_t> exemplars;  // the training shapes that cover it best, the best first
   double apart = 0;                // of the best: mean distance from the other shape, there and back

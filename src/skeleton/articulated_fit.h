@@ -67,7 +67,8 @@ class ArticulatedFit {
                  System& system) const;
   void unbend(Posture& posture) const;
   void move(const Vector& step, Posture& posture) const;
-  // Per pair of a point and a vertex of the target that should meet: point, vertex, weight, cost.
+  // pair(point, vertex, gap, weight): once for each point and vertex of the target that should meet. Returns their mean distance, see
+  // residual.
   template <class Pair>
   double for_each_pair(const MatrixX3& points, const MatrixX3& normals, Eigen::Index stride,
                        Pair&& pair) const;

@@ -18,7 +18,6 @@ constexpr double reversing_margin = 0.035;  // fits that face the other way must
 constexpr double residual_falloff = 30;     // a fit counts exp(-falloff (residual / least residual - 1))
 constexpr double agreement = 0.05;          // of sqrt(area): fits whose joints lie farther off hardly count
 constexpr double start_weight = 0.7;        // of the maps' joints beside all fits
-constexpr double most_stretch = 0.4;        // see shape_starts.cpp
 constexpr FitRounds from_maps{.coarse = 10, .fine = 5, .map_weight = 0.3};
 constexpr FitRounds from_posture{.coarse = 10, .fine = 5}, glance{.coarse = 8, .fine = 0};
 
@@ -181,33 +180,22 @@ class Fitting {
   Posture as_it_stands(int32_t shape, const Matrix3& frame) const {
     const AtlasShape& of = model_.atlas[shape];
     const ArticulatedFit& fit = *fits_[shape];
-    const Vector area = of.samples.weight.head(of.positions.rows()).cast<double>();
-    const MatrixX3 body = target_.positions * frame.transpose();
-    const Spread here = spread_of(body, target_.area), there = spread_of(of.positions, area / area.sum());
-    Vector3 scale = here.deviation.cwiseQuotient(there.deviation.cwiseMax(1e-9)).cwiseMax(1e-9);
-    const double all = std::cbrt(scale.prod());
-    for (double& one : scale)
-      one = all * std::exp(std::clamp(std::log(one / all), -most_stretch, most_stretch));
+    const Vector weight = of.samples.weight.head(of.positions.rows()).cast<double>();
+    const Extents own = extents_of(of.positions, weight);
+    const Extents body = extents_of(target_.positions * frame.transpose(), target_.area);
+    const Vector3 scale = scale_onto(own, body);
+    const double mean_scale = std::log(body.deviation.cwiseQuotient(own.deviation.cwiseMax(1e-9)).prod()) / 3;
     Posture result = unmoved();
     for (size_t j = 0; j < start_.joints.size(); ++j) {
       if (!fit.has(j)) continue;
-      result.place[j] = frame.transpose() * (scale.cwiseProduct(fit.bind_place(j) - there.mean) + here.mean);
+      result.place[j] = frame.transpose() * (scale.cwiseProduct(fit.bind_place(j) - own.mean) + body.mean);
       result.turn[j] = frame.transpose();
       const double along = std::log(scale.cwiseProduct(fit.bone(j)).norm());
       const auto at = static_cast<Eigen::Index>(j);
       result.length[at] = along;
-      result.girth[at] = std::clamp(1.5 * std::log(all) - 0.5 * along, -1.0, 1.0);  // the volume is kept
+      result.girth[at] = std::clamp(1.5 * mean_scale - 0.5 * along, -1.0, 1.0);  // the volume is kept
     }
     return result;
-  }
-
-  struct Spread {
-    Vector3 mean, deviation;
-  };
-  static Spread spread_of(const MatrixX3& points, const Vector& weight) {
-    const Vector3 mean = points.transpose() * weight;
-    const MatrixX3 away = points.rowwise() - mean.transpose();
-    return {mean, (away.array().square().matrix().transpose() * weight).array().sqrt()};
   }
 
   const Detection& detection_;

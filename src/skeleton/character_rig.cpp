@@ -22,6 +22,16 @@ std::vector<int32_t> other_sides(const std::vector<Joint>& joints) {
   return result;
 }
 
+std::vector<Vector3> bone_directions(const std::vector<int32_t>& parent, const std::vector<Vector3>& place,
+                                     const std::vector<Vector3>& tip) {
+  std::vector<Vector3> way(place.size(), Vector3::Zero());
+  for (size_t j = 0; j < way.size(); ++j)
+    if (const int32_t p = parent[j]; p >= 0) way[p] += place[j] - place[p];
+  for (size_t j = 0; j < way.size(); ++j)
+    if (way[j].isZero()) way[j] = tip[j] - place[j];
+  return way;
+}
+
 ToCaller::ToCaller(const SurfaceAnalysis& analysis) {
   const PreparedMesh& full = *analysis.proxy.full;
   scale = full.scale, offset = full.centre;

@@ -24,6 +24,10 @@ struct CharacterRig {
   std::vector<std::string> warnings;
 };
 
+// Per joint where its bones lead from it, summed; to its tip where there are none. parent: -1: a root.
+std::vector<Vector3> bone_directions(const std::vector<int32_t>& parent, const std::vector<Vector3>& place,
+                                     const std::vector<Vector3>& tip);
+
 // From the coordinates of the analysed surface to those of the caller's mesh.
 struct ToCaller {
   explicit ToCaller(const SurfaceAnalysis& analysis);

@@ -45,24 +45,14 @@ std::vector<Vector3> displacements(const FixedJoints& fixed, double reach, const
   return moved;
 }
 
-// Where the bones of each joint lead in the mean; to its tip where there are none.
-std::vector<Vector3> directions(const MovableSkeleton& skeleton) {
-  std::vector<Vector3> way(skeleton.place.size(), Vector3::Zero());
-  for (size_t j = 0; j < way.size(); ++j)
-    if (const int32_t p = skeleton.parent[j]; p >= 0) way[p] += skeleton.place[j] - skeleton.place[p];
-  for (size_t j = 0; j < way.size(); ++j)
-    if (way[j].isZero()) way[j] = skeleton.tip[j] - skeleton.place[j];
-  return way;
-}
-
 }  // namespace
 
 void follow(const FixedJoints& fixed, double reach, const MovableSkeleton& skeleton) {
   if (fixed.empty()) return;
   const std::vector<Vector3> moved = displacements(fixed, reach, skeleton);
-  const std::vector<Vector3> before = directions(skeleton);
+  const std::vector<Vector3> before = bone_directions(skeleton.parent, skeleton.place, skeleton.tip);
   for (size_t j = 0; j < moved.size(); ++j) skeleton.place[j] += moved[j], skeleton.tip[j] += moved[j];
-  const std::vector<Vector3> after = directions(skeleton);
+  const std::vector<Vector3> after = bone_directions(skeleton.parent, skeleton.place, skeleton.tip);
   for (size_t j = 0; j < moved.size(); ++j) {
     if (fixed[j]) skeleton.place[j] = *fixed[j];
     if (before[j].norm() > least_length && after[j].norm() > least_length)

@@ -171,16 +171,10 @@ Joints agreed_joints(const std::vector<SkeletonJoint>& skeleton, const std::vect
   return result;
 }
 
-// To where its bones lead; to its tip where there are none.
-std::vector<Vector3> bone_directions(const std::vector<SkeletonJoint>& skeleton, const Joints& joints) {
-  std::vector<Vector3> way(skeleton.size(), Vector3::Zero());
-  for (size_t j = 0; j < skeleton.size(); ++j)
-    if (const int32_t p = skeleton[j].parent; p >= 0) way[p] += joints.place[j] - joints.place[p];
-  for (size_t j = 0; j < skeleton.size(); ++j) {
-    if (way[j].isZero()) way[j] = joints.tip[j] - joints.place[j];
-    way[j] = way[j].norm() > 1e-9 ? Vector3(way[j].normalized()) : Vector3::Zero();
-  }
-  return way;
+std::vector<int32_t> parents_of(const std::vector<SkeletonJoint>& skeleton) {
+  std::vector<int32_t> result;
+  for (const SkeletonJoint& joint : skeleton) result.push_back(joint.parent);
+  return result;
 }
 
 // How far the shapes' opinions of a turn lie apart about an axis, as the variance of their mean.
@@ -204,7 +198,8 @@ const ShapeRig& first_rig(const LandmarkModel& model) {
 
 void settle_twists(const LandmarkModel& model, const std::vector<Opinion>& opinions, Joints& joints) {
   const ShapeRig& first = first_rig(model);
-  const std::vector<Vector3> way = bone_directions(model.skeleton, joints);
+  std::vector<Vector3> way = bone_directions(parents_of(model.skeleton), joints.place, joints.tip);
+  for (Vector3& one : way) one = one.norm() > 1e-9 ? Vector3(one.normalized()) : Vector3::Zero();
   std::vector<TurnedJoint> turned;
   for (size_t j = 0; j < model.skeleton.size(); ++j) {
     const auto& bind = first.bind[j];
@@ -224,9 +219,7 @@ void hold_fixed(const std::vector<SkeletonJoint>& skeleton, const FixedJoints& f
   FixedJoints inside(fixed.size());
   for (size_t j = 0; j < fixed.size(); ++j)
     if (fixed[j]) inside[j] = (*fixed[j] - mesh.centre) / mesh.scale, joints.confidence[j] = 1;
-  std::vector<int32_t> parent;
-  for (const SkeletonJoint& joint : skeleton) parent.push_back(joint.parent);
-  follow(inside, fixed_joint_reach, {parent, joints.place, joints.tip, joints.turn});
+  follow(inside, fixed_joint_reach, {parents_of(skeleton), joints.place, joints.tip, joints.turn});
 }
 
 // A joint that moves vertices belongs inside the body; controls may lie anywhere.
@@ -265,21 +258,48 @@ void warn_of_absent(const Detection& detection, std::vector<std::string>& warnin
                 "): none of their landmarks was found on this mesh, each of their places is a guess");
 }
 
-// From the coordinates of the full surface to those of the analysed one.
+// Between the coordinates of the analysed surface and those of the full one.
+struct ToFull {
+  explicit ToFull(const Proxy& proxy) {
+    if (!proxy.is_full()) scale = proxy.coarse->scale, offset = proxy.coarse->centre;
+  }
+  Vector3 operator()(const Vector3& p) const { return offset + scale * p; }
+  Vector3 back(const Vector3& p) const { return (p - offset) / scale; }
+
+  double scale = 1;
+  Vector3 offset = Vector3::Zero();
+};
+
 PlacedSkeleton on_analysed(const std::vector<SkeletonJoint>& skeleton, const Joints& joints,
-                           const Proxy& proxy) {
+                           const ToFull& to_full) {
   PlacedSkeleton result{skeleton, joints.place, joints.tip, joints.turn};
-  if (proxy.is_full()) return result;
   for (auto* places : {&result.place, &result.tip})
-    for (Vector3& p : *places) p = (p - proxy.coarse->centre) / proxy.coarse->scale;
+    for (Vector3& p : *places) p = to_full.back(p);
   return result;
 }
 
+// vertices: of the analysed surface, in the coordinates of the full one.
+std::vector<Opinion> opinions_of(const std::vector<ShapeMap>& maps, const LandmarkModel& model,
+                                 const MatrixX3& vertices, const Execution& execution) {
+  float least = std::numeric_limits<float>::infinity();
+  for (const ShapeMap& one : maps) least = std::min(least, one.map.residual);
+  std::vector<Opinion> opinions(maps.size());
+  parallel_for(execution, static_cast<int64_t>(maps.size()), [&](int64_t m) {
+    opinions[m] = opinion_of(model.skeleton, model.atlas[maps[m].shape], maps[m].map.image, vertices);
+    opinions[m].weight = std::exp(-alike_falloff * (maps[m].map.residual - least));
+  });
+  return opinions;
+}
+
+// Joints or landmarks that are known say how the body faces.
+bool may_reverse(const Detection& detection, const FixedJoints& fixed) {
+  return detection.model->params.finds_heading && !detection.has_fixed &&
+         std::none_of(fixed.begin(), fixed.end(), [](const auto& one) { return one.has_value(); });
+}
+
 // What the fits say beside the maps, which count as much as the fits leave them.
-void add_fits(const BodyFit& fit, const LandmarkModel& model, const Proxy& proxy,
+void add_fits(const BodyFit& fit, const LandmarkModel& model, const ToFull& to_full,
               std::vector<Opinion>& opinions) {
-  const double scale = proxy.is_full() ? 1 : proxy.coarse->scale;
-  const Vector3 centre = proxy.is_full() ? Vector3(Vector3::Zero()) : proxy.coarse->centre;
   double sum = 0;
   for (const Opinion& one : opinions) sum += one.weight;
   for (Opinion& one : opinions) one.weight *= fit.start_share / sum;
@@ -289,8 +309,8 @@ void add_fits(const BodyFit& fit, const LandmarkModel& model, const Proxy& proxy
     for (size_t j = 0; j < shape.tip.size(); ++j) {
       const auto& bind = model.atlas[shape.shape].rig->bind[j];
       one.place.emplace_back();
-      if (bind) one.place.back() = centre + scale * shape.posture.place[j];
-      one.tip.push_back(centre + scale * shape.tip[j]);
+      if (bind) one.place.back() = to_full(shape.posture.place[j]);
+      one.tip.push_back(to_full(shape.tip[j]));
       one.turn.push_back(bind ? Matrix3(shape.posture.turn[j] * bind->topLeftCorner<3, 3>())
                               : Matrix3(Matrix3::Identity()));
     }
@@ -303,46 +323,33 @@ CharacterRig transfer_rig(const Detection& detection, const Execution& execution
                           int32_t influences, const FixedJoints& fixed) {
   const LandmarkModel& model = *detection.model;
   execution.begin_stage("maps", 0, 0.7);
-  std::vector<ShapeMap> maps = maps_of(detection, execution);
+  const std::vector<ShapeMap> maps = maps_of(detection, execution);
   if (maps.empty())
     throw Error(Status::invalid_argument, "none of the model's shapes has a rig",
                 "train with rigged characters");
   execution.begin_stage("joints", 0.7, 0.8);
   const SurfaceAnalysis& analysis = *detection.analysis;
-  // Where the analysed vertices lie in the coordinates of the full surface.
-  MatrixX3 vertices = analysis.surface().positions;
-  if (!analysis.proxy.is_full())
-    vertices =
-        (analysis.proxy.coarse->scale * vertices).rowwise() + analysis.proxy.coarse->centre.transpose();
-  float least = std::numeric_limits<float>::infinity();
-  for (const ShapeMap& one : maps) least = std::min(least, one.map.residual);
-  std::vector<Opinion> opinions(maps.size());
-  std::vector<double> weight;
-  for (const ShapeMap& one : maps) weight.push_back(std::exp(-alike_falloff * (one.map.residual - least)));
-  parallel_for(execution, static_cast<int64_t>(maps.size()), [&](int64_t m) {
-    opinions[m] = opinion_of(model.skeleton, model.atlas[maps[m].shape], maps[m].map.image, vertices);
-    opinions[m].weight = weight[m];
-  });
+  const ToFull to_full(analysis.proxy);
+  const MatrixX3 vertices =
+      (to_full.scale * analysis.surface().positions).rowwise() + to_full.offset.transpose();
+  std::vector<Opinion> opinions = opinions_of(maps, model, vertices, execution);
   CharacterRig result;
-  std::vector<std::string> said_again;
-  const Joints mapped = agreed_joints(model.skeleton, opinions, said_again);
-  const bool may_reverse =
-      model.params.finds_heading && !detection.has_fixed &&
-      std::none_of(fixed.begin(), fixed.end(), [](const auto& one) { return one.has_value(); });
-  const BodyFit fit = fit_to_body(detection, maps, on_analysed(model.skeleton, mapped, analysis.proxy),
-                                  may_reverse, execution);
-  add_fits(fit, model, analysis.proxy, opinions);
+  std::vector<std::string> of_maps;  // warnings that the fits may answer
+  const Joints mapped = agreed_joints(model.skeleton, opinions, of_maps);
+  const BodyFit fit = fit_to_body(detection, maps, on_analysed(model.skeleton, mapped, to_full),
+                                  may_reverse(detection, fixed), execution);
+  add_fits(fit, model, to_full, opinions);
   result.surface_distance = fit.shapes[0].residual, result.heading_margin = fit.heading_margin;
   Joints joints = agreed_joints(model.skeleton, opinions, result.warnings);
-  maps = maps_of_fits(fit, model, analysis, execution);
-  weight.clear();
-  for (const FittedShape& one : fit.shapes) weight.push_back(one.share);
   settle_twists(model, opinions, joints);
   hold_fixed(model.skeleton, fixed, *detection.mesh, joints);
   warn_of_absent(detection, result.warnings);
   execution.begin_stage("weights", 0.8, 1);
-  const PlacedSkeleton placed = on_analysed(model.skeleton, joints, analysis.proxy);
-  const SurfaceWeights weights = taught_weights({model, maps, weight}, analysis, placed, execution);
+  const PlacedSkeleton placed = on_analysed(model.skeleton, joints, to_full);
+  const std::vector<ShapeMap> fitted = maps_of_fits(fit, model, analysis, execution);
+  std::vector<double> share;
+  for (const FittedShape& one : fit.shapes) share.push_back(one.share);
+  const SurfaceWeights weights = taught_weights({model, fitted, share}, analysis, placed, execution);
   draw_inside(joints, fixed, weights.weights, {vertices, analysis.surface().triangles});
   const PreparedMesh& full = *detection.mesh;
   const auto to_caller = [&](const Vector3& p) -> Vector3 { return full.centre + full.scale * p; };
