@@ -322,12 +322,12 @@ void add_fits(const BodyFit& fit, const LandmarkModel& model, const ToFull& to_f
 CharacterRig transfer_rig(const Detection& detection, const Execution& execution, bool symmetric,
                           int32_t influences, const FixedJoints& fixed) {
   const LandmarkModel& model = *detection.model;
-  execution.begin_stage("maps", 0, 0.7);
+  execution.begin_stage("maps", 0, 0.3);
   const std::vector<ShapeMap> maps = maps_of(detection, execution);
   if (maps.empty())
     throw Error(Status::invalid_argument, "none of the model's shapes has a rig",
                 "train with rigged characters");
-  execution.begin_stage("joints", 0.7, 0.8);
+  execution.begin_stage("joints", 0.3, 0.8);
   const SurfaceAnalysis& analysis = *detection.analysis;
   const ToFull to_full(analysis.proxy);
   const MatrixX3 vertices =
@@ -340,6 +340,11 @@ CharacterRig transfer_rig(const Detection& detection, const Execution& execution
                                   may_reverse(detection, fixed), execution);
   add_fits(fit, model, to_full, opinions);
   result.surface_distance = fit.shapes[0].residual, result.heading_margin = fit.heading_margin;
+  if (fit.is_reversed)
+    result.warnings.push_back(
+        "the skeleton faces the other way than the landmarks that were found: a training character lies "
+        "nearer to the "
+        "mesh so");
   Joints joints = agreed_joints(model.skeleton, opinions, result.warnings);
   settle_twists(model, opinions, joints);
   hold_fixed(model.skeleton, fixed, *detection.mesh, joints);

@@ -3,6 +3,9 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
+#include "skeleton/bone_names.h"
 #include "skeleton/character_rig.h"
 #include "skeleton/rig_transfer.h"
 #include "skeleton/small_rig.h"
@@ -72,6 +75,34 @@ TEST_CASE("a start whose sides are exchanged is corrected, unless the heading is
   CHECK(body.fit(true).is_reversed);
   CHECK(body.error(body.fit(true)) < 0.05);
   CHECK_FALSE(body.fit(false).is_reversed);
+}
+
+TEST_CASE("landmarks whose sides are exchanged: the rig is right all the same, and says so") {
+  Body body(11);
+  Detection& found = body.detection;
+  const std::vector<SurfacePoint> places = found.places;
+  const auto& names = found.model->landmark_names;
+  size_t exchanged = 0;
+  for (size_t l = 0; l < names.size(); ++l)
+    if (const auto mirrored = mirrored_name(names[l]))
+      if (const auto at = std::find(names.begin(), names.end(), *mirrored); at != names.end())
+        found.places[l] = places[static_cast<size_t>(at - names.begin())], ++exchanged;
+  REQUIRE(exchanged > 10);
+  found.maps.clear();  // made anew from the places
+  const auto says_so = [](const CharacterRig& rig) {
+    return std::any_of(rig.warnings.begin(), rig.warnings.end(), [](const std::string& one) {
+      return one.find("faces the other way") != std::string::npos;
+    });
+  };
+  const CharacterRig rig = transfer_rig(found, execution);
+  CHECK(says_so(rig));
+  const ToCaller to_caller(*found.analysis);
+  double sum = 0;
+  for (size_t j = 0; j < body.truth.size(); ++j)
+    sum += (Vector3(rig.rig.joints[j].bind.topRightCorner<3, 1>()) - to_caller(body.truth[j])).norm();
+  CHECK(sum / to_caller.scale < 0.05 * static_cast<double>(body.truth.size()));
+  found.has_fixed = true;  // then the landmarks are right
+  CHECK_FALSE(says_so(transfer_rig(found, execution)));
 }
 
 TEST_CASE("maps of fits lead from the points to where they lie") {
