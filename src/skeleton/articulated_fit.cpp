@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 
+#include "base/error.h"
+#include "mesh/similarity.h"
 #include "skeleton/rig_landmarks.h"
 
 namespace focal {
@@ -14,17 +16,16 @@ namespace {
 
 // Lengths are in units of sqrt(area). Chosen on left-out characters of packs and of the generator.
 constexpr double least_share = 0.006;  // of the area: parts below that do not move on their own
-constexpr size_t most_moving = 40;
-constexpr Eigen::Index coarse_stride = 4;  // of the points
-constexpr Eigen::Index target_samples = 1000;
+constexpr double no_share = 1e-4;      // likewise, of a joint by itself: a control, which nothing holds
+constexpr size_t most_moving = 40, normal_points = 10;
+constexpr Eigen::Index coarse_stride = 4, target_samples = 1000;  // of the points, of the target's
 constexpr double target_weight = 0.5;   // of the way back, from the target to the shape
 constexpr double point_weight = 0.1;    // of a distance along the surface beside one across it
 constexpr double normal_cost = 0.0245;  // of two normals at a right angle
 constexpr double pose_cost = 0.02;      // of joints bent by a right angle from the bind pose
 constexpr double least_facing = 0.05;   // pairs that face away from each other still count a little
-constexpr double loose = 0.17,
-                 tight = 0.045;  // distances beyond which a pair counts little, at first and at last
-constexpr double map_outlier = 0.12;
+// Distances beyond which a pair counts little, at first and at last, and an image of a map.
+constexpr double loose = 0.17, tight = 0.045, map_outlier = 0.12;
 constexpr double most_bend = 1.8;                     // beyond, a joint starts as the bind pose has it
 constexpr double most_angle = 0.3, most_scale = 0.2;  // a round
 // Of all bones together, beside distances whose weights sum to 1 or so.
@@ -34,10 +35,9 @@ constexpr double pose_weight = 3e-4;     // angles between neighbours beside tho
 constexpr double even_weight = 3e-3;     // scales of neighbours
 constexpr double size_weight = 2.5e-2;   // scales beside the mean
 constexpr double slender_weight = 1e-2;  // length beside girth
-constexpr double symmetry_weight = 0.3;  // of both sides
-constexpr double still_weight = 1e-3;
-constexpr int unknowns = 8;  // of a joint: place, turn, length, girth
-constexpr int normal_points = 10;
+constexpr double symmetry_weight = 0.3, still_weight = 1e-3;  // of both sides; of staying
+constexpr double control_reach = 0.1;  // joints nearer than that to a control count alike for its place
+constexpr int unknowns = 8;            // of a joint: place, turn, length, girth
 
 using Jacobian = Eigen::Matrix<double, 3, unknowns>;
 
@@ -48,9 +48,7 @@ Matrix3 cross_matrix(const Vector3& v) {
 }
 
 Matrix3 turn_by(const Vector3& turn) {
-  const double angle = turn.norm();
-  return angle > 0 ? Eigen::AngleAxisd(std::min(angle, most_angle), turn / angle).toRotationMatrix()
-                   : Matrix3(Matrix3::Identity());
+  return Eigen::AngleAxisd(std::min(turn.norm(), most_angle), turn.stableNormalized()).toRotationMatrix();
 }
 
 // Between a joint and the one that it hangs on, in world coordinates: axis times angle.
@@ -114,6 +112,9 @@ ArticulatedFit::ArticulatedFit(const std::vector<SkeletonJoint>& skeleton, const
 
 void ArticulatedFit::choose_moving() {
   const Vector share = weights_below(skeleton_, shape_.rig->influences).cast<double>().transpose() * weight_;
+  Vector own = Vector::Zero(share.size());
+  for (Eigen::Index i = 0; i < weight_.size(); ++i)
+    for (const Influence& one : shape_.rig->influences[i]) own[one.joint] += one.weight * weight_[i];
   std::vector<double> sorted(share.begin(), share.end());
   std::sort(sorted.rbegin(), sorted.rend());
   const double least = sorted.size() > most_moving ? std::max(least_share, sorted[most_moving]) : least_share;
@@ -124,10 +125,13 @@ void ArticulatedFit::choose_moving() {
     axis_.push_back(Vector3::UnitY());
     if (!has(j)) continue;
     if (above >= 0) children[moving_[above]] += bind_place(j) - bind_place(moving_[above]);
-    if (above >= 0 && share[static_cast<Eigen::Index>(j)] < least) continue;
+    const auto at = static_cast<Eigen::Index>(j);
+    if (own[at] < no_share || (above >= 0 && share[at] < least)) continue;
     slot_.back() = static_cast<int32_t>(moving_.size());
     moving_.push_back(static_cast<int32_t>(j)), parent_.push_back(above);
   }
+  if (moving_.empty())
+    throw Error(Status::invalid_argument, "a training character's rig moves nothing", "learn the model anew");
   for (const int32_t j : moving_) {
     constexpr double least_length = 0.02;
     const Vector3 to_tip = shape_.rig->tip[j] - bind_place(j);
@@ -172,7 +176,7 @@ void ArticulatedFit::estimate_normals() {
       length[above] = std::max(length[above], axis_[above].dot(bind_place(j) - bind_place(above)));
     }
   std::vector<std::pair<double, Eigen::Index>> near(points);
-  const auto count = static_cast<Eigen::Index>(std::min<size_t>(normal_points, near.size()));
+  const auto count = static_cast<Eigen::Index>(std::min(normal_points, near.size()));
   for (Eigen::Index i = 0; i < points; ++i) {
     for (Eigen::Index k = 0; k < points; ++k)
       near[k] = {(shape_.positions.row(k) - shape_.positions.row(i)).squaredNorm(), k};
@@ -192,6 +196,7 @@ void ArticulatedFit::estimate_normals() {
 }
 
 Vector3 ArticulatedFit::carried(const Posture& posture, size_t joint, const Vector3& place) const {
+  if (slot_[joint] < 0) return posture.place[joint] + posture.turn[joint] * (place - bind_place(joint));
   const int32_t j = moving_[slot_[joint]];
   const Vector3 from = place - bind_place(j), along = axis_[j] * axis_[j].dot(from);
   return posture.place[j] + posture.turn[j] * (std::exp(posture.length[j]) * along +
@@ -358,11 +363,28 @@ void ArticulatedFit::run(const FitRounds& rounds, const std::vector<int32_t>& im
     add_bones(posture, system);
     move(-system.matrix.selfadjointView<Eigen::Lower>().llt().solve(system.gradient), posture);
   }
-  for (size_t j = 0; j < skeleton_.size(); ++j)
-    if (has(j) && moving_[slot_[j]] != static_cast<int32_t>(j)) {
+  take_along(posture);
+}
+
+// Joints that do not move on their own go with what they hang on; controls above all that moves, with what lies near them.
+void ArticulatedFit::take_along(Posture& posture) const {
+  MatrixX3 before(moving_.size(), 3), after(moving_.size(), 3);
+  for (size_t slot = 0; slot < moving_.size(); ++slot) {
+    before.row(static_cast<Eigen::Index>(slot)) = bind_place(moving_[slot]);
+    after.row(static_cast<Eigen::Index>(slot)) = posture.place[moving_[slot]];
+  }
+  for (size_t j = 0; j < skeleton_.size(); ++j) {
+    if (!has(j)) continue;
+    if (slot_[j] < 0) {
+      const Vector away = (before.rowwise() - bind_place(j).transpose()).rowwise().squaredNorm();
+      const Similarity near =
+          fit_similarity(before, after, (away.array() + control_reach * control_reach).inverse());
+      posture.place[j] = near(bind_place(j)), posture.turn[j] = near.rotation;
+    } else if (moving_[slot_[j]] != static_cast<int32_t>(j)) {
       posture.place[j] = carried(posture, j, bind_place(j));
       posture.turn[j] = posture.turn[moving_[slot_[j]]];
     }
+  }
 }
 
 double ArticulatedFit::residual(const Posture& posture) const {

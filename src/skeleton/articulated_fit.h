@@ -67,6 +67,7 @@ class ArticulatedFit {
                  System& system) const;
   void unbend(Posture& posture) const;
   void move(const Vector& step, Posture& posture) const;
+  void take_along(Posture& posture) const;
   // pair(point, vertex, gap, weight): once for each point and vertex of the target that should meet. Returns their mean distance, see
   // residual.
   template <class Pair>

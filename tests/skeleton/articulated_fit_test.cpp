@@ -110,6 +110,35 @@ TEST_CASE("a bent arm and knee, and a larger body, are found again") {
   CHECK(farthest(fit, at_rest(fit), by) > 0.15);
 }
 
+TEST_CASE("a control on the ground that moves no vertex comes along, and pulls nothing") {
+  const Vector3 ground(0, subject().surface.positions.col(1).minCoeff(), 0);
+  AtlasShape shape = subject().shape();
+  std::vector<SkeletonJoint> skeleton = subject().model->skeleton;
+  for (SkeletonJoint& joint : skeleton) ++joint.parent;
+  skeleton.insert(skeleton.begin(), {"root", -1});
+  for (VertexInfluences& vertex : shape.rig->influences)
+    for (Influence& one : vertex) one.joint += one.weight > 0;
+  Matrix4 bind = Matrix4::Identity();
+  bind.topRightCorner<3, 1>() = ground;
+  shape.rig->bind.insert(shape.rig->bind.begin(), bind),
+      shape.rig->tip.insert(shape.rig->tip.begin(), ground);
+  std::vector<int32_t> counterpart{-1};
+  for (const int32_t one : subject().counterpart) counterpart.push_back(one < 0 ? -1 : one + 1);
+
+  const FitTarget target({1.1 * subject().surface.positions, subject().surface.triangles});
+  const ArticulatedFit without(subject().model->skeleton, subject().shape(), subject().counterpart, target);
+  Posture expected = at_rest(without), posture = expected;
+  without.run({}, {}, expected);
+  const ArticulatedFit fit(skeleton, shape, counterpart, target);
+  posture.place.insert(posture.place.begin(), Vector3::Zero());
+  posture.turn.insert(posture.turn.begin(), Matrix3::Identity());
+  posture.length = posture.girth = Vector::Zero(static_cast<Eigen::Index>(skeleton.size()));
+  fit.run({}, {}, posture);
+  CHECK((posture.place[0] - 1.1 * ground).norm() < 0.03);
+  for (size_t j = 1; j < skeleton.size(); ++j)
+    if (fit.has(j)) CHECK((posture.place[j] - expected.place[j - 1]).norm() < 1e-9);
+}
+
 TEST_CASE("facing the other way it lies farther off") {
   const FitTarget target(subject().surface);
   const ArticulatedFit fit(subject().model->skeleton, subject().shape(), subject().counterpart, target);
