@@ -300,6 +300,7 @@ focal_status focal_skeleton_create(const focal_detection* detection, const focal
           "animations of the file move its former skeleton, which the mesh does not follow any more: " +
           listed(idle) + "; --animations (animations) plays them on the new one");
     judge(*object, measures);
+    if (!by_hand) calibrate_confidence(object->quality, fixed, object->rig);
     if (how.ground_root) put_root(how, *object);
     object->context->report_warnings(object->rig.warnings);
     *out_skeleton = publish(object);

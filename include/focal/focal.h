@@ -882,9 +882,10 @@ FOCAL_API focal_status focal_skeleton_get_info(const focal_skeleton* skeleton, f
 
 typedef struct focal_joint {
   uint32_t struct_size;
-  int32_t parent;    /* index of a joint before it; -1: a root */
-  const char* name;  /* lives as long as the skeleton */
-  double confidence; /* 0..1: how well the training characters agree on its place */
+  int32_t parent;   /* index of a joint before it; -1: a root */
+  const char* name; /* lives as long as the skeleton */
+  /* Probability of lying within 5 % of the longest side of the body's box of its place; 1 where it was given. */
+  double confidence;
   float position[3];
   /* Quaternion x, y, z, w: from the joint's own axes, those of the training characters, to the mesh's */
   float rotation[4];

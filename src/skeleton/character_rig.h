@@ -15,7 +15,8 @@ struct CharacterRig {
   // Where each joint goes when the character takes the rest pose of those it was learned from: turned as theirs are, with bones
   // of its own length, its roots where they are. Empty: none is known.
   std::vector<Matrix4> rest;
-  std::vector<double> confidence;  // per joint 0..1
+  // Per joint 0..1: how far the training characters agree on it, until calibrate_confidence (verdict.h) makes a probability of it.
+  std::vector<double> confidence;
   // Of a training character that was fitted to the body: its distance from it, of sqrt(area), and the share by which one that faces
   // the other way lies farther off, infinite: none was tried. NaN: none was fitted.
   double surface_distance = std::numeric_limits<double>::quiet_NaN();

@@ -327,6 +327,17 @@ const char* name_of(Verdict verdict) {
   return verdict == Verdict::good ? "good" : verdict == Verdict::check ? "check" : "failed";
 }
 
+// Fitted on 1466 joints of 82 rigs, by three models, of characters that did not teach or came from other packs; by cross-validation over the
+// characters the expected calibration error is 0.05. Agreement says little: the fits of a body mostly err together.
+void calibrate_confidence(double quality, const FixedJoints& fixed, CharacterRig& rig) {
+  constexpr double offset = -0.05, slope = 0.48, least_quality = 0.02, enough_agreement = 0.5;
+  const double q = std::clamp(quality, least_quality, 1 - least_quality);
+  const double chance = 1 / (1 + std::exp(-offset - slope * std::log(q / (1 - q))));
+  for (size_t j = 0; j < rig.confidence.size(); ++j)
+    if (fixed.empty() || !fixed[j])
+      rig.confidence[j] = chance * std::min(1.0, rig.confidence[j] / enough_agreement);
+}
+
 std::vector<std::string> doubts_about(const RigMeasures& measures) {
   std::vector<std::pair<double, const char*>> found;
   for (const Indication& one : indications)

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "skeleton/character_rig.h"
+#include "skeleton/fixed_joints.h"
 
 namespace focal {
 
@@ -20,7 +21,7 @@ struct RigMeasures {
   double bulge_agreement = unknown;  // likewise
   double runner_up = unknown;        // how much more another configuration costs; infinite: none came near
   double surface_distance = unknown, heading_margin = unknown;  // see CharacterRig
-  double joint_spread = unknown;                                // mean over the joints of 1 - confidence
+  double joint_spread = unknown;                                // mean over the joints of 1 - agreement
   double absent_share = unknown;                                // joints without a found landmark
   double uncovered =
       unknown;  // of sqrt(area): how far a twentieth of the mesh lies, at least, from a training character that the joints pose
@@ -42,6 +43,10 @@ RigMeasures rig_measures(const Detection& detection, const CharacterRig& rig);
 double rig_quality(const RigMeasures& measures);  // 0..1
 Verdict verdict_of(const RigMeasures& measures);
 const char* name_of(Verdict verdict);
+
+// Turns how far the training characters agree on each joint into the chance that it lies within 5 % of the longest side of the body's
+// box of where it belongs. Joints that are fixed or have no place keep their 1 or 0. rig: of transfer_rig.
+void calibrate_confidence(double quality, const FixedJoints& fixed, CharacterRig& rig);
 
 // Sentences on what speaks against the rig, the worst first; empty for one that is good in everything.
 std::vector<std::string> doubts_about(const RigMeasures& measures);

@@ -151,6 +151,25 @@ TEST_CASE("a joint far outside, a bone as long as the body, a hand upon the othe
   CHECK(rig_quality(measures(clasped)) < before);
 }
 
+TEST_CASE(
+    "a joint is as sure as the rig is good and the training characters agree; what is given or missing stays "
+    "so") {
+  const auto confidence = [](double quality, double agreement, const FixedJoints& fixed = {}) {
+    CharacterRig rig;
+    rig.confidence = {agreement};
+    calibrate_confidence(quality, fixed, rig);
+    return rig.confidence[0];
+  };
+  CHECK(confidence(0.01, 1) < 0.2);
+  CHECK(confidence(1, 1) > 0.8);
+  for (double quality = 0.1; quality < 0.95; quality += 0.1) {
+    CHECK(confidence(quality, 1) < confidence(quality + 0.05, 1));
+    CHECK(confidence(quality, 0.2) < confidence(quality, 0.4));
+    CHECK(confidence(quality, 0) == 0);
+    CHECK(confidence(quality, 1, {Vector3::Zero()}) == 1);
+  }
+}
+
 TEST_CASE("joints without a found landmark count as guesses") {
   Detection detection = other().detection;
   CHECK(guessed_joints(detection).empty());

@@ -24,7 +24,7 @@ class Joint:
 
     name: str
     parent: int        # number of a joint before it; -1: a root
-    confidence: float  # 0..1: how well the training characters agree on its place
+    confidence: float  # probability of lying within 5 % of the body's size of its place
     position: tuple[float, float, float]
     rotation: tuple[float, float, float, float]  # quaternion x, y, z, w: from the joint's own axes to the mesh's
     tip: tuple[float, float, float]              # the far end of its part of the surface
