@@ -46,13 +46,13 @@ std::vector<ShapeMap> maps_of(const Detection& detection, const Execution& execu
   if (!detection.analysis)
     throw Error(Status::invalid_argument, "the detection keeps no analysis of the mesh",
                 "detect on the mesh itself");
-  const std::vector<int32_t> landmark = placed_landmarks(detection);
-  if (landmark.size() < 3)
-    throw Error(Status::invalid_argument, "fewer than three landmarks were found on the mesh",
-                "is it of the category that the model was learned on?");
   const SurfaceAnalysis& analysis = *detection.analysis;
   std::vector<ShapeMap> maps = detection.maps;
   if (maps.empty()) {
+    const std::vector<int32_t> landmark = placed_landmarks(detection);
+    if (landmark.size() < 3)
+      throw Error(Status::invalid_argument, "fewer than three landmarks were found on the mesh",
+                  "is it of the category that the model was learned on?");
     const RowMatrixf fields = analysis.metric->distances(places_of(detection, landmark), execution);
     maps = map_shapes(model.atlas, detection.exemplars, model.reach, analysis, landmark, fields,
                       {.map = {.first = 20, .last = 120, .step = 8}}, execution);
