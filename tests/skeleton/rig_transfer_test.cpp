@@ -84,7 +84,7 @@ TEST_CASE("another humanoid in another pose gets its skeleton and weights") {
   }
 }
 
-TEST_CASE("a joint without any landmark of its own is told of; too few landmarks are refused") {
+TEST_CASE("a joint without any landmark of its own is named; too few landmarks without maps are refused") {
   const creatures::Character other = humanoid(11);
   Detection detection = detect(rig_model(), mesh_of(other.posed, other), {}, execution);
   CHECK(transfer_rig(detection, execution).warnings.empty());
@@ -94,6 +94,8 @@ TEST_CASE("a joint without any landmark of its own is told of; too few landmarks
   REQUIRE(warnings.size() == 1);
   CHECK(warnings[0].find("'leftHand'") != std::string::npos);
   for (SurfacePoint& place : detection.places) place.triangle = -1;
+  CHECK(transfer_rig(detection, execution).warnings.size() == 1);  // the maps say where the joints are
+  detection.maps.clear();
   CHECK_THROWS_AS(transfer_rig(detection, execution), Error);
   detection.analysis = nullptr;
   CHECK_THROWS_AS(transfer_rig(detection, execution), Error);
