@@ -14,24 +14,12 @@
 namespace focal {
 namespace {
 
-const char* name_of(LandmarkStatus status) {
-  switch (status) {
-    case LandmarkStatus::found:
-      return "found";
-    case LandmarkStatus::uncertain:
-      return "uncertain";
-    case LandmarkStatus::absent:
-      return "absent";
-  }
-  return "absent";
-}
-
 std::vector<GltfLandmark> landmarks_of(const DetectionObject& object) {
   std::vector<GltfLandmark> result;
   for (size_t i = 0; i < object.detection.landmarks.size(); ++i) {
     const DetectedLandmark& from = object.detection.landmarks[i];
     result.push_back({object.model->info.landmark_names[i], from.source_point, from.position, from.confidence,
-                      name_of(from.status)});
+                      from.status});
   }
   return result;
 }

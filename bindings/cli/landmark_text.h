@@ -11,8 +11,8 @@ namespace focal_cli {
 std::string_view trimmed(std::string_view text);
 std::vector<std::string_view> lines_of(
     std::string_view text);  // without empty ones, line ends and byte-order mark
-std::vector<std::string> split_csv_line(std::string_view line);  // RFC 4180 quotes
-std::string csv_cell(std::string_view text);                     // quoted where it must be
+std::vector<std::string> split_csv_line(std::string_view line, char separator = ',');  // RFC 4180 quotes
+std::string csv_cell(std::string_view text);  // quoted where it must be
 
 double number_of(std::string_view text);  // throws CommandError unless all of it is one finite number
 std::string text_of(double number);       // as few digits as bring the same number back

@@ -41,8 +41,15 @@ std::string_view after(std::string_view line, std::string_view key) {
 }
 
 struct FcsvColumns {
-  size_t x = 1, y = 2, z = 3, label = 11;
+  size_t x = 1, y = 2, z = 3, label = 11, status = 14;
 };
+
+// Slicer 5 writes a status behind the columns that its columns line names: 0 undefined, 1 preview, 2 defined, 3 missing.
+bool is_placed(const std::vector<std::string>& cells, const FcsvColumns& columns) {
+  if (cells.size() <= columns.status) return true;
+  const std::string_view status = trimmed(cells[columns.status]);
+  return status.empty() || status == "2";
+}
 
 FcsvColumns columns_of(std::string_view list) {
   const std::vector<std::string> names = split_csv_line(list);
@@ -53,7 +60,7 @@ FcsvColumns columns_of(std::string_view list) {
     throw CommandError("the columns line has no column '" + std::string(name) + "'",
                        "save it again in Slicer");
   };
-  return {find("x"), find("y"), find("z"), find("label")};
+  return {find("x"), find("y"), find("z"), find("label"), names.size()};
 }
 
 }  // namespace
@@ -105,6 +112,7 @@ LandmarkFile parse_slicer_fcsv(std::string_view text) {
     if (cells.size() <= std::max({columns.x, columns.y, columns.z, columns.label})) {
       throw CommandError("line '" + std::string(line) + "' has too few columns", "save it again in Slicer");
     }
+    if (!is_placed(cells, columns)) continue;
     Landmark mark;
     mark.name = cells[columns.label];
     mark.position =

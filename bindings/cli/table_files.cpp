@@ -25,6 +25,53 @@ Landmark landmark_of(const Cells& cells) {
   return mark;
 }
 
+// A table as its first line has it: columns in small letters; a label is a name where there is none.
+struct Table {
+  char separator = ',';
+  std::vector<std::string> columns;
+};
+
+std::string column_name(std::string_view cell) {
+  std::string name(trimmed(cell));
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return name;
+}
+
+// The separator that makes the most of the line.
+Table table_of(std::string_view header) {
+  Table table;
+  for (const char separator : {',', ';', '\t'}) {
+    const std::vector<std::string> cells = split_csv_line(header, separator);
+    if (cells.size() <= table.columns.size()) continue;
+    table = {separator, {}};
+    for (const std::string& cell : cells) table.columns.push_back(column_name(cell));
+  }
+  auto& columns = table.columns;
+  if (std::find(columns.begin(), columns.end(), "name") == columns.end())
+    std::replace(columns.begin(), columns.end(), std::string("label"), std::string("name"));
+  return table;
+}
+
+bool is_number_column(const std::string& name) {
+  return name == "x" || name == "y" || name == "z" || name == "confidence";
+}
+
+// Spreadsheets write "0,5" where their language does, and then put semicolons between the cells. Elsewhere "1,234" could be either.
+std::string with_decimal_point(std::string cell, char separator) {
+  const size_t comma = cell.find(',');
+  if (comma == std::string::npos || cell.find_first_of(",.", comma + 1) != std::string::npos ||
+      cell.find('.') < comma)
+    return cell;
+  const std::string_view digits = trimmed(std::string_view(cell).substr(comma + 1));
+  const std::string_view whole = trimmed(std::string_view(cell).substr(0, comma));
+  if (separator != ';' && digits.size() == 3 && whole != "0" && whole != "-0")
+    throw CommandError("'" + cell + "' may be a number of thousands or have a decimal comma",
+                       "write numbers with a decimal point, or semicolons between the cells");
+  cell[comma] = '.';
+  return cell;
+}
+
 std::string unescaped(std::string_view text) {
   static const std::map<std::string_view, char> entities = {
       {"&amp;", '&'}, {"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}, {"&apos;", '\''}};
@@ -81,20 +128,21 @@ size_t element_end(std::string_view text) {
 
 LandmarkFile parse_csv(std::string_view text) {
   const std::vector<std::string_view> lines = lines_of(text);
-  const auto header = lines.empty() ? std::vector<std::string>() : split_csv_line(lines.front());
+  const Table table = lines.empty() ? Table{} : table_of(lines.front());
   LandmarkFile file;
   for (const char* needed : {"name", "x", "y", "z"}) {
-    if (std::none_of(header.begin(), header.end(), [&](const auto& h) { return trimmed(h) == needed; })) {
-      throw CommandError("the first line names no column '" + std::string(needed) + "'",
-                         "begin the file with the line name,x,y,z");
+    if (std::count(table.columns.begin(), table.columns.end(), needed) != 1) {
+      throw CommandError(
+          "the first line does not name one column '" + std::string(needed) + "'",
+          "begin the file with the line name,x,y,z; semicolons or tabs may stand between them too");
     }
   }
   for (size_t row = 1; row < lines.size(); ++row) {
-    const std::vector<std::string> cells = split_csv_line(lines[row]);
+    const std::vector<std::string> cells = split_csv_line(lines[row], table.separator);
     Cells by_name;
-    for (size_t i = 0; i < std::min(cells.size(), header.size()); ++i) {
-      by_name[std::string(trimmed(header[i]))] = cells[i];
-    }
+    for (size_t i = 0; i < std::min(cells.size(), table.columns.size()); ++i)
+      by_name[table.columns[i]] =
+          is_number_column(table.columns[i]) ? with_decimal_point(cells[i], table.separator) : cells[i];
     file.landmarks.push_back(landmark_of(by_name));
   }
   return file;

@@ -198,7 +198,8 @@ enum {
 
 typedef struct focal_mesh_params {
   uint32_t struct_size;
-  int32_t weld;            /* merge vertices of exactly equal position (UV and normal splits). Default 1 */
+  int32_t weld;            /* merge vertices of equal position (UV and normal splits), and open
+                              borders that meet within 2e-4 of the size. Default 1 */
   int32_t drop_degenerate; /* drop triangles with a repeated corner and repeated triangles. Default 1 */
   focal_surface surface;   /* Default AUTO */
   /* The rest concerns glTF files only. */

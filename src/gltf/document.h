@@ -11,6 +11,7 @@
 
 #include "gltf/limits.h"
 #include "mesh/animation.h"
+#include "mesh/landmark_status.h"
 #include "mesh/rig.h"
 #include "mesh/scenery.h"
 #include "mesh/triangle_mesh.h"
@@ -60,10 +61,10 @@ struct GltfAnimations {
 
 struct GltfLandmark {
   std::string name;
-  SurfacePoint point;                  // on the merged mesh; triangle -1: none
-  Vector3 position = Vector3::Zero();  // world coordinates
-  double confidence = 1;               // 0..1
-  std::string status = "found";        // found, uncertain, absent; an absent one gets no node
+  SurfacePoint point;                             // on the merged mesh; triangle -1: none
+  Vector3 position = Vector3::Zero();             // world coordinates
+  double confidence = 1;                          // 0..1
+  LandmarkStatus status = LandmarkStatus::found;  // an absent one gets no node
 };
 
 // A joint of the file that a new one stands for, and where it is bound.

@@ -19,7 +19,7 @@ constexpr const char* kGroupName = "focal_landmarks";
 constexpr int kVersion = 1;
 
 void describe(const GltfLandmark& landmark, Json& to) {
-  at(to, "status") = landmark.status;
+  at(to, "status") = name_of(landmark.status);
   at(to, "confidence") = short_number(landmark.confidence);
 }
 
@@ -83,7 +83,7 @@ void LandmarkInserter::add_nodes(std::span<const GltfLandmark> landmarks) {
   const size_t group = pool_.take();
   std::vector<size_t> children;
   for (const GltfLandmark& landmark : landmarks) {
-    if (landmark.status == "absent") continue;
+    if (landmark.status == LandmarkStatus::absent) continue;
     children.push_back(pool_.take());
     Json& node = nodes[children.back()];
     at(node, "name") = landmark.name;

@@ -11,11 +11,10 @@
 #include "landmarks/landmark_model.h"
 #include "landmarks/params.h"
 #include "landmarks/surface_analysis.h"
+#include "mesh/landmark_status.h"
 #include "mesh/prepare.h"
 
 namespace focal {
-
-enum class LandmarkStatus : int32_t { found = 0, uncertain = 1, absent = 2 };
 
 struct DetectedPoint {
   SurfacePoint source_point;           // on mesh->source: the caller's triangle numbers

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "mesh/components.h"
+#include "mesh/stitch.h"
 #include "mesh/wrap.h"
 
 namespace focal {
@@ -132,6 +133,30 @@ void build_surface(PreparedMesh& mesh, const std::vector<int32_t>& first, const 
   }
 }
 
+// What a surface is built of; first: per source vertex the one that stands for it.
+struct Corners {
+  std::vector<int32_t> first;
+  MatrixX3i of_triangle;
+};
+
+void build_surface(PreparedMesh& mesh, const PrepareParams& params, const std::vector<char>& invalid,
+                   Corners& corners) {
+  corners.of_triangle = mesh.source.triangles.unaryExpr([&](int32_t v) { return corners.first[v]; });
+  mesh.source_triangle =
+      kept_triangles(corners.of_triangle, mesh.source.vertex_count(), params.drop_degenerate, invalid);
+  build_surface(mesh, corners.first, corners.of_triangle);
+}
+
+// Joins borders that nearly meet; the surface is made anew.
+void stitch(PreparedMesh& mesh, const PrepareParams& params, const std::vector<char>& invalid,
+            Corners& corners) {
+  const std::vector<int32_t> together = stitched_borders(mesh.surface, edge_sides(mesh.surface));
+  if (together.empty()) return;
+  for (int32_t& v : corners.first)
+    if (const int32_t s = mesh.surface_vertex[v]; s >= 0) v = mesh.source_vertex[together[s]];
+  build_surface(mesh, params, invalid, corners);
+}
+
 void normalise(PreparedMesh& mesh) {
   auto& positions = mesh.surface.positions;
   const Vector3 low = positions.colwise().minCoeff(), high = positions.colwise().maxCoeff();
@@ -194,8 +219,8 @@ void warn(PreparedMesh& mesh, std::span<const MeshPiece> pieces) {
 }
 
 // Takes scenery out of the triangles that are kept; the surface is made anew of the others.
-void leave_out_scenery(const PrepareParams& params, const std::vector<int32_t>& first,
-                       const MatrixX3i& corners, PreparedMesh& mesh, Components& components) {
+void leave_out_scenery(const PrepareParams& params, const Corners& corners, PreparedMesh& mesh,
+                       Components& components) {
   FoundScenery found = find_scenery(mesh.surface, components, mesh.source_triangle, params.pieces);
   if (found.parts.empty()) return;
   mesh.scenery = std::move(found.parts);
@@ -204,7 +229,7 @@ void leave_out_scenery(const PrepareParams& params, const std::vector<int32_t>& 
     if (!found.triangles[t]) kept.push_back(mesh.source_triangle[t]);
   mesh.scenery_triangles = static_cast<int64_t>(mesh.source_triangle.size() - kept.size());
   mesh.source_triangle = std::move(kept);
-  build_surface(mesh, first, corners);
+  build_surface(mesh, corners.first, corners.of_triangle);
   components = components_of(mesh.surface);
 }
 
@@ -265,22 +290,20 @@ PreparedMesh prepare(TriangleMesh source, const PrepareParams& params, const Exe
   mesh.source = std::move(source);
   mesh.invalid_triangles = std::count(invalid.triangle.begin(), invalid.triangle.end(), 1);
   execution.check_cancelled();
-  std::vector<int32_t> first(mesh.source.vertex_count());
-  std::iota(first.begin(), first.end(), 0);
-  if (params.weld) first = weld(mesh.source.positions);
+  Corners corners{std::vector<int32_t>(mesh.source.vertex_count()), {}};
+  std::iota(corners.first.begin(), corners.first.end(), 0);
+  if (params.weld) corners.first = weld(mesh.source.positions);
   execution.check_cancelled();
-  MatrixX3i corners = mesh.source.triangles.unaryExpr([&](int32_t v) { return first[v]; });
-  mesh.source_triangle =
-      kept_triangles(corners, mesh.source.vertex_count(), params.drop_degenerate, invalid.triangle);
+  build_surface(mesh, params, invalid.triangle, corners);
   execution.check_cancelled();
-  build_surface(mesh, first, corners);
+  if (params.weld && params.repair_orientation) stitch(mesh, params, invalid.triangle, corners);
   if (mesh.surface.vertex_count() < smallest_surface)
     throw Error(Status::mesh_too_small,
                 "the surface has " + std::to_string(mesh.surface.vertex_count()) + " different vertices",
                 "at least " + std::to_string(smallest_surface) + " are needed");
   execution.check_cancelled();
   Components components = components_of(mesh.surface);
-  if (params.leave_out_scenery) leave_out_scenery(params, first, corners, mesh, components);
+  if (params.leave_out_scenery) leave_out_scenery(params, corners, mesh, components);
   forget(invalid.vertex, mesh);
   mesh.components = components.count;
   execution.check_cancelled();

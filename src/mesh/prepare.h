@@ -23,11 +23,11 @@ enum class AnalysedSurface : int32_t {
 
 struct PrepareParams {
   AnalysedSurface analysed = AnalysedSurface::automatic;
-  bool weld = true;             // merge vertices of exactly equal position
+  bool weld = true;             // merge vertices of equal position, and borders that nearly meet (see stitch.h)
   bool drop_degenerate = true;  // drop triangles with a repeated corner, and repeated triangles
   // Leave out triangles with a NaN or infinite corner or an index out of range, instead of refusing the mesh.
   bool lenient = false;
-  // Look at the topology and turn triangles over where they disagree; not needed for what is made of a prepared surface.
+  // Look at the topology, join borders and turn triangles over where they disagree; not needed for what is made of a prepared surface.
   bool repair_orientation = true;
   // Look for parts that are not the character and leave them out (see scenery.h); pieces: of the source, or none.
   bool leave_out_scenery = false;

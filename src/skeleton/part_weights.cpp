@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
 
 #include "mesh/closest_point.h"
 #include "mesh/components.h"
+#include "mesh/stitch.h"
 
 namespace focal {
 namespace {
@@ -59,34 +59,6 @@ RowMatrixf lifted(const RowMatrixf& weights, const SurfaceAnalysis& analysis, co
                          weights.row(analysis.surface().triangles(places[v].triangle, c));
   });
   return result;
-}
-
-// Per vertex the first one at its place.
-std::vector<int32_t> first_at_place(const MatrixX3& positions, double tolerance) {
-  std::unordered_map<uint64_t, std::vector<int32_t>> cells;
-  const auto key = [](const Eigen::Vector3i& c) {
-    return (static_cast<uint64_t>(static_cast<uint32_t>(c[0]) & 0x1FFFFF) << 42) |
-           (static_cast<uint64_t>(static_cast<uint32_t>(c[1]) & 0x1FFFFF) << 21) |
-           (static_cast<uint32_t>(c[2]) & 0x1FFFFF);
-  };
-  std::vector<int32_t> first(static_cast<size_t>(positions.rows()));
-  for (int32_t v = 0; v < positions.rows(); ++v) {
-    const Vector3 p = positions.row(v);
-    const Eigen::Vector3i cell = (p / (2 * tolerance)).array().floor().cast<int>();
-    first[v] = v;
-    for (int corner = 0; corner < 27 && first[v] == v; ++corner) {
-      const auto there =
-          cells.find(key(cell + Eigen::Vector3i(corner % 3 - 1, corner / 3 % 3 - 1, corner / 9 - 1)));
-      if (there == cells.end()) continue;
-      for (const int32_t other : there->second)
-        if ((positions.row(other).transpose() - p).norm() < tolerance) {
-          first[v] = other;
-          break;
-        }
-    }
-    if (first[v] == v) cells[key(cell)].push_back(v);
-  }
-  return first;
 }
 
 // Vertices at one place take the mean of their weights, so that seams between parts stay closed.

@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "command_error.h"
@@ -105,6 +106,47 @@ TEST_CASE("CSV columns are found by name, in any order, with a byte-order mark a
   REQUIRE(file.landmarks.size() == 1);
   CHECK(file.landmarks[0].name == "a \"b\", c");
   CHECK(file.landmarks[0].position == Position{1, 2, 3});
+}
+
+TEST_CASE("tables of every spreadsheet: separators, decimal commas, capitals, a label for a name") {
+  const auto place = [](const std::string& text) { return only_position(LandmarkFormat::csv, text); };
+  for (const std::string separator : {",", ";", "\t"})
+    for (const std::string name : {"name", "Name", "label", "LABEL"})
+      for (const std::string quote : {"", "\""}) {
+        const auto line = [&](const std::array<std::string, 4>& cells) {
+          std::string text;
+          for (const std::string& cell : cells)
+            text += (text.empty() ? "" : separator) + quote + cell + quote;
+          return text + "\r\n";
+        };
+        CAPTURE(separator);
+        CHECK(place(line({name, "X", "y", "Z"}) + line({"nose", "0.0123", "-1.5", "2e1"})) ==
+              Position{0.0123, -1.5, 20});
+        if (separator == "," && quote.empty()) continue;
+        CHECK(place(line({name, "X", "y", "Z"}) + line({"nose", "0,0123", "-1,5", "0,125"})) ==
+              Position{0.0123, -1.5, 0.125});
+      }
+  CHECK(place("name;x;y;z\na, b;1,234;1,5;2\n") == Position{1.234, 1.5, 2});
+  for (const char* doubtful :
+       {"name,x,y,z\na,\"1,234\",2,3\n", "name\tx\ty\tz\na\t1,234\t2\t3\n", "name;x;y;z\na;1,2,3;2;3\n",
+        "name;x;y;z\na;1.000,5;2;3\n", "name;name;x;y;z\na;b;1;2;3\n", "\tx\ty\tz\na\t1\t2\t3\n",
+        "name\tx\ty\tz\n\t1\t2\t3\n"})
+    CHECK_THROWS_AS(parse_landmarks(LandmarkFormat::csv, doubtful), CommandError);
+}
+
+TEST_CASE("Slicer's points that are not placed are absent") {
+  const std::string head = "# Markups fiducial file version = 5.2\n# CoordinateSystem = LPS\n";
+  const std::string columns = "# columns = id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNodeID\n";
+  const auto row = [](const std::string& label, const std::string& status) {
+    return "1,1,2,3,0,0,0,1,1,1,0," + label + ",,," + status + ",0\n";
+  };
+  const std::string rows =
+      row("undefined", "0") + row("preview", "1") + row("placed", "2") + row("missing", "3");
+  for (const std::string& text : {head + columns + rows, head + rows}) {
+    const LandmarkFile file = parse_landmarks(LandmarkFormat::slicer_fcsv, text);
+    REQUIRE(file.landmarks.size() == 1);
+    CHECK(file.landmarks[0].name == "placed");
+  }
 }
 
 TEST_CASE("MeshLab's points that were not picked are absent") {

@@ -25,9 +25,9 @@ Ordered parsed(std::span<const std::byte> bytes) {
 }
 
 std::vector<GltfLandmark> three_landmarks() {
-  return {{"nose", {2, {0.2, 0.3, 0.5}}, {0.1, 0.2, 0.3}, 0.75, "found"},
-          {"tail \"x\"", {0, {1, 0, 0}}, {-1, 0, 1e-5}, 0.25, "uncertain"},
-          {"wing", {}, {}, 0, "absent"}};
+  return {{"nose", {2, {0.2, 0.3, 0.5}}, {0.1, 0.2, 0.3}, 0.75, LandmarkStatus::found},
+          {"tail \"x\"", {0, {1, 0, 0}}, {-1, 0, 1e-5}, 0.25, LandmarkStatus::uncertain},
+          {"wing", {}, {}, 0, LandmarkStatus::absent}};
 }
 
 // Removes what add_landmarks adds to a file that had none before.
@@ -151,7 +151,8 @@ TEST_CASE("the second mesh's triangles are counted from its own, a mirrored one'
   file.add_mesh(0, 1);
   file.add_node({{"mesh", 1}, {"scale", {-1, 1, 1}}});
   const auto source = file.glb();
-  const std::vector<GltfLandmark> landmarks = {{"a", {5, {0.5, 0.25, 0.125}}, {0, 0, 0}, 1, "found"}};
+  const std::vector<GltfLandmark> landmarks = {
+      {"a", {5, {0.5, 0.25, 0.125}}, {0, 0, 0}, 1, LandmarkStatus::found}};
   const Ordered root = parsed(add_landmarks(source, read_gltf_memory(source).primitives, landmarks));
   CHECK_FALSE(root["meshes"][0].contains("extras"));
   const auto& landmark = root["meshes"][1]["extras"]["focal"]["landmarks"][0];

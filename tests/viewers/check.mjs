@@ -1,6 +1,7 @@
 // Every glTF file that focal wrote is valid, and looks in three.js as it should; a file that is spoiled is found out.
 // usage: FOCAL_VIEWERS=FOLDER_OF_NODE_MODULES node check.mjs LIST
-//   LIST: lines of WRITTEN, INPUT and how it was written, between tabs. WRITTEN.json: what `focal rig --json` said of a rig
+//   LIST: lines of WRITTEN, INPUT and how it was written, between tabs: rig, keep (other weights), detect, votes, parts.
+//   WRITTEN.json: what `focal rig --json` said of a rig
 import fs from 'node:fs';
 import {readGlb, writeGlb} from './glb.mjs';
 import {spoilers} from './spoilers.mjs';
@@ -17,7 +18,7 @@ function newFaults(before, after, verb) {
   const faults = [];
   for (const [fault, count] of after.faults) {
     // A rig has weights of its own.
-    const inherited = verb === 'rig' && /weights/i.test(fault) ? 0 : before.faults.get(fault) ?? 0;
+    const inherited = (verb === 'rig' || verb === 'keep') && /weights/i.test(fault) ? 0 : before.faults.get(fault) ?? 0;
     if (count > inherited) faults.push(`${fault} (${count}, in its input ${inherited})`);
   }
   return faults;
@@ -60,11 +61,11 @@ async function judge({written, input, how}) {
   const faults = newFaults(before, after, verb);
 
   let bones = [];  // pictures of votes and parts have none
-  if (verb === 'detect') bones = before.bones;
+  if (verb === 'detect' || verb === 'keep') bones = before.bones;
   if (verb === 'rig') bones = JSON.parse(fs.readFileSync(written.replace(/\.spoiled/, '') + '.json')).joints;
   faults.push(...boneFaults(bones, before, after));
 
-  const clips = verb === 'rig' || verb === 'detect' ? [...before.clips] : [];
+  const clips = ['rig', 'detect', 'keep'].includes(verb) ? [...before.clips] : [];
   if (words.includes('--animations')) {  // they get a number where the mesh has one of that name
     for (const clip of (await lookOnce(words[words.indexOf('--animations') + 1])).clips) {
       let name = clip;

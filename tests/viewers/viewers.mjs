@@ -9,7 +9,7 @@ const validator = createRequire(path.join(modules, 'here.js'))('gltf-validator')
 const three = (file) => import(pathToFileURL(path.join(modules, 'three', file)).href);
 globalThis.self = globalThis;  // two names of browsers that the loader uses and Node lacks
 globalThis.ProgressEvent ??= class extends Event {};
-const {AnimationMixer, Box3, LoadingManager, PropertyBinding, SkinnedMesh, Texture} = await three('build/three.module.js');
+const {AnimationMixer, Box3, LoadingManager, LoopOnce, PropertyBinding, SkinnedMesh, Texture} = await three('build/three.module.js');
 const {GLTFLoader} = await three('examples/jsm/loaders/GLTFLoader.js');
 
 export const viewerName = (name) => PropertyBinding.sanitizeNodeName(name ?? '');
@@ -96,4 +96,18 @@ export async function look(file) {
   const bones = bonesOf(gltf.scene, nodeOf, json, add);
   play(gltf, nodeOf, json, add);
   return {json, faults, bones, clips: gltf.animations.map((clip) => clip.name), box};
+}
+
+// Of the first morph target of every mesh that has some, at a time of a clip.
+export async function influences(file, clip, seconds) {
+  const gltf = await load(file);
+  const mixer = new AnimationMixer(gltf.scene);
+  const action = mixer.clipAction(gltf.animations.find(({name}) => name === clip));
+  action.clampWhenFinished = true;
+  action.setLoop(LoopOnce);
+  action.play();
+  mixer.update(seconds);
+  const found = [];
+  gltf.scene.traverse((mesh) => found.push(...(mesh.morphTargetInfluences ?? []).slice(0, 1)));
+  return found;
 }

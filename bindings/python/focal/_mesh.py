@@ -52,7 +52,7 @@ class Mesh(Handle):
     vertices  (n, 3) numbers, in units of your own; kept as 32-bit floats. 64-bit ones that lie so far from 0 that they
               would lose their shape so (earth-centred coordinates) are moved to 0 first, see origin
     faces     (m, 3) vertex numbers from 0, counter-clockwise seen from outside
-    weld               merge vertices of exactly equal position. Default True
+    weld               merge vertices of equal position, and open borders that meet within 2e-4 of the size. Default True
     drop_degenerate    drop triangles with a repeated corner and repeated triangles. Default True
     surface            what is analysed, a focal.Surface or its name: "as-is" the mesh's own triangles, separate parts
                        linked at their nearest vertices; "wrapped" one closed surface round everything that the mesh
