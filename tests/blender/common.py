@@ -12,6 +12,8 @@ if not hasattr(numpy, "bool"):  # the glTF add-on of Blender 3.4 asks NumPy for 
 
 ZIP, SAMPLES, OUT = sys.argv[sys.argv.index("--") + 1:]
 MODULE = "focal_addon"
+TRAINING = [f"humanoid_{i:02}" for i in range(6)]
+OTHERS = [f"humanoid_{i:02}" for i in range(6, 9)]
 _began = time.perf_counter()
 _last = _began
 
@@ -76,6 +78,12 @@ def activate(obj):
         other.select_set(False)
     obj.select_set(True)
     bpy.context.view_layer.objects.active = obj
+
+
+def weight_of(obj, bone):
+    """The sum of a bone's weights on an object."""
+    group = obj.vertex_groups.get(bone)
+    return 0 if group is None else sum(g.weight for v in obj.data.vertices for g in v.groups if g.group == group.index)
 
 
 def refused(operator, **arguments):

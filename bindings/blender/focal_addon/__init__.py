@@ -9,11 +9,14 @@ bl_info = {
     "category": "Rigging",
 }
 
-from . import (batch, binding, correction, detection, engine, jobs, landmark_edit, landmark_pick, overlay, panels,  # noqa: E402
-               preferences, properties, rigging, segmentation, training)
+from . import (batch, binding, correction, detection, engine, jobs, landmark_edit, landmark_exchange, landmark_pick, model_files, overlay, panels,  # noqa: E402
+               preferences, properties, rigging, segmentation, training, vote_map)
 
-_MODULES = (properties, preferences, jobs, landmark_edit, landmark_pick, training, detection, correction, rigging,
-            binding, segmentation, batch, panels, overlay)
+_MODULES = (properties, preferences, model_files, jobs, landmark_edit, landmark_exchange, landmark_pick, training, detection, correction, rigging,
+            binding, segmentation, batch, vote_map, panels, overlay)
+
+# Blender's glTF importer looks for this name in each add-on.
+glTF2ImportUserExtension = landmark_exchange.LandmarksOfFile
 
 
 def register():

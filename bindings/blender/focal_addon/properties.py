@@ -3,6 +3,8 @@ import bpy
 from bpy.props import (BoolProperty, CollectionProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty,
                        PointerProperty, StringProperty)
 
+from . import display
+
 STATUS = (
     ("UNPLACED", "Not placed", "Not marked on this mesh", "RADIOBUT_OFF", 0),
     ("MARKED", "Marked", "Set or accepted by hand", "PINNED", 1),
@@ -34,15 +36,23 @@ def redraw_views(_self, context):
             area.tag_redraw()
 
 
+def update_empties(settings, context):
+    for obj in settings.id_data.objects:
+        if obj.type == "MESH" and (obj.focal.landmarks or display.empties_of(obj)):
+            display.update_empties(context, obj)
+
+
 class FocalLandmark(bpy.types.PropertyGroup):
     name: StringProperty(name="Name", description="Of the landmark; .L and .R, or Left and Right, tell sides apart")
     status: EnumProperty(name="Status", items=STATUS)
     triangle: IntProperty(name="Triangle", default=-1, description="Number among the mesh's triangles")
     barycentric: FloatVectorProperty(name="Barycentric", size=3, description="Weights of the triangle's corners")
-    position: FloatVectorProperty(name="Position", size=3, subtype="XYZ", description="In the object's coordinates",
+    position: FloatVectorProperty(name="Position", size=3, subtype="XYZ", description="In the object's own coordinates and its unit of length",
                                   precision=4)
-    confidence: FloatProperty(name="Confidence", min=0, max=1, subtype="FACTOR")
-    expected_error: FloatProperty(name="Expected error", subtype="DISTANCE")
+    confidence: FloatProperty(name="Confidence", min=0, max=1, subtype="FACTOR",
+                              description="Chance that the place is right, from 0 to 1")
+    expected_error: FloatProperty(name="Expected error", subtype="DISTANCE",
+                                  description="How far off the place may be, in the scene's unit of length")
     runner_up_confidence: FloatProperty(name="Second-best confidence", min=0, max=1)
     runner_up_triangle: IntProperty(default=-1)
     runner_up_barycentric: FloatVectorProperty(size=3)
@@ -67,13 +77,14 @@ class FocalObject(bpy.types.PropertyGroup):
     landmarks: CollectionProperty(type=FocalLandmark)
     active: IntProperty(name="Active landmark", update=redraw_views)
     model: StringProperty(name="Model", description="File of the model that found the landmarks")
-    category_fit: FloatProperty(name="Fits the category", min=0, max=1, subtype="FACTOR")
+    category_fit: FloatProperty(name="Fits the category", min=0, max=1, subtype="FACTOR",
+                                description="How well the mesh fits what the model knows, from 0 to 1; below 0.2 it is hardly of the kind")
     triangle_count: IntProperty(description="Of the mesh when the landmarks were placed: other meshes need a snap")
 
 
 class FocalLandmarkError(bpy.types.PropertyGroup):
     name: StringProperty()
-    mean: FloatProperty(name="Mean error", subtype="DISTANCE")
+    mean: FloatProperty(name="Mean error", subtype="DISTANCE", description="In the scene's unit of length")
     share: FloatProperty(name="Error", description="In per cent of the square root of the surface's area",
                          subtype="PERCENTAGE", precision=2)
     count: IntProperty(name="Meshes it was measured on")
@@ -92,7 +103,7 @@ class FocalScene(bpy.types.PropertyGroup):
                                description="The name of a stock model, or a file (.focal) that training writes and detection "
                                            "reads")
     search: EnumProperty(name="Search", items=(
-        ("BEST", "Best", "With the slower refinements"), ("INTERACTIVE", "Quick", "About half the time")))
+        ("BEST", "Best", "With the slower refinements: a second or two for a mesh"), ("INTERACTIVE", "Quick", "About half the time")))
     resolve: BoolProperty(
         name="Re-solve after each correction", default=True,
         description="When a landmark of a detected mesh is set or accepted by hand, look for the others again")
@@ -102,8 +113,11 @@ class FocalScene(bpy.types.PropertyGroup):
                           description="Draw the landmarks of the active mesh in colours of their confidence")
     overlay_names: BoolProperty(name="Names", default=True, update=redraw_views,
                                 description="Write each landmark's name beside it")
-    empties: BoolProperty(name="Empties", default=True,
-                          description="Also make an empty at each landmark: for constraints and for export")
+    empties: BoolProperty(name="Empties", update=update_empties,
+                          description="Also make an empty at each landmark, a child of the mesh: for constraints and for export. "
+                                      "Without the tick there are none")
+    keep_votes: BoolProperty(name="Keep vote map",
+                             description="Vote maps become a colour attribute, for materials and export; else they are only drawn")
     bone_names: EnumProperty(name="Names", items=BONE_NAMES, description="Names of the bones")
     ground_root: BoolProperty(name="Root on the ground",
                               description="One more bone on the ground, above all others, as engines expect it")

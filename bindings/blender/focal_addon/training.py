@@ -8,7 +8,7 @@ import numpy
 from . import engine, gltf, landmark_data
 from .geometry import Unusable, armature_of, problem_of, selected_meshes
 from .jobs import JobOperator
-from .properties import TRAINED_MODEL
+from .model_files import model_path, path_to_train
 
 _DRAFT = {"proxy_vertices": 1500, "tree_count": 10, "learn_confidence": False}
 _MOST_FOLDS = 10
@@ -94,41 +94,6 @@ def learn(meshes, names, options, run_context, task):
         known = {name: place for name, place in mesh.marks.items() if name in names}
         training.add(focal.Mesh(mesh.positions, mesh.faces, context=run_context), known)
     return focal.Model.train(training, task=task, **options)
-
-
-def model_path(context, must_exist=False):
-    """The model's file as the settings say, absolute."""
-    raw = context.scene.focal.model_path
-    if not raw:
-        raise Unusable(f"Name a model file first. {engine.stock_hint()}")
-    if is_stock_name(raw):
-        return _stock_path(raw)
-    if raw.startswith("//") and not bpy.data.filepath:
-        path = os.path.join(bpy.app.tempdir, raw[2:])  # nothing is saved yet: gone when Blender ends
-    else:
-        path = bpy.path.abspath(raw)
-    if must_exist and not os.path.isfile(path):
-        raise Unusable(f"There is no model '{path}': train one, or choose another file. {engine.stock_hint()}")
-    return path
-
-
-def is_stock_name(raw):
-    """A plain word: files have a folder or a suffix."""
-    return raw != "" and not any(sign in raw for sign in "/\\.")
-
-
-def _stock_path(name):
-    path = engine.stock_models().get(name)
-    if path is None:
-        raise Unusable(f"There is no stock model '{name}'. {engine.stock_hint()}")
-    return str(path)
-
-
-def path_to_train(context):
-    """The file that training writes; a stock model is never written over."""
-    if is_stock_name(context.scene.focal.model_path):
-        context.scene.focal.model_path = TRAINED_MODEL
-    return model_path(context)
 
 
 class FOCAL_OT_train(JobOperator, bpy.types.Operator):
