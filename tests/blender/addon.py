@@ -39,6 +39,7 @@ def main():
     detecting.test_votes_and_parts()
     rigging.test_rig()
     rigging.test_collection()
+    learning.test_parts()
     learning.test_rigs()
     rigging.test_character()
     installation.test_undo_and_file()

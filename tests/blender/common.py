@@ -6,6 +6,7 @@ import time
 
 import bpy
 import numpy
+from mathutils import Vector
 
 if not hasattr(numpy, "bool"):  # the glTF add-on of Blender 3.4 asks NumPy for it
     numpy.bool = bool
@@ -78,6 +79,25 @@ def activate(obj):
         other.select_set(False)
     obj.select_set(True)
     bpy.context.view_layer.objects.active = obj
+
+
+def in_two(obj):
+    """The object with its upper half as another object."""
+    activate(obj)
+    middle = numpy.mean([v.co.z for v in obj.data.vertices])
+    for polygon in obj.data.polygons:
+        polygon.select = polygon.center.z > middle
+    for vertex in obj.data.vertices:
+        vertex.select = vertex.co.z > middle
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.separate(type="SELECTED")
+    bpy.ops.object.mode_set(mode="OBJECT")
+    other = next(o for o in bpy.context.selected_objects if o != obj)
+    bpy.context.view_layer.update()
+    other.matrix_world.translation.x += 1  # each object has an origin of its own
+    for vertex in other.data.vertices:
+        vertex.co = other.matrix_world.inverted() @ (other.matrix_world @ vertex.co - Vector((1, 0, 0)))
+    return other
 
 
 def weight_of(obj, bone):

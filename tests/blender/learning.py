@@ -1,9 +1,12 @@
 """Models from marked meshes and from rigs."""
 import os
+import sys
 
 import bpy
+import numpy
 
-from common import OTHERS, OUT, SAMPLES, TRAINING, activate, check, load_character, step, truth
+from common import (MODULE, OTHERS, OUT, SAMPLES, TRAINING, activate, check, in_two, load_character, refused, step,
+                    truth)
 
 
 def test_training():
@@ -61,6 +64,53 @@ def test_measure():
     check(len(shares) == 24 and shares == sorted(shares, reverse=True), "every landmark, worst first")
     check(0.1 < sum(shares) / len(shares) < 8, f"a mean of {sum(shares) / len(shares):.1f} %")
     step(f"measured on three left out in turn: mean {sum(shares) / len(shares):.1f} %")
+
+
+def test_parts():
+    """A character of two objects, each with marks of its own, is one row and teaches as one."""
+    settings, kept = bpy.context.scene.focal, {}
+    settings.training.clear()
+    for name in TRAINING[:2]:
+        obj = load_character(name)
+        other = in_two(obj)
+        kept[name] = obj, other
+        places = truth(name)
+        for landmark, (x, y, z) in places.items():
+            upper = y > numpy.median([place[1] for place in places.values()])
+            bpy.context.scene.cursor.location = (x, -z, y)
+            activate(other if upper else obj)
+            bpy.ops.focal.landmark_add(name=landmark)
+            bpy.ops.focal.landmark_cursor()
+        for one in (other, obj):
+            one.select_set(True)
+        bpy.context.view_layer.objects.active = obj
+        bpy.ops.focal.training_add()
+    check(len(settings.training) == 2, f"a row for each character: {[i.object.name for i in settings.training]}")
+    training = sys.modules[MODULE + ".training"]
+    meshes, names = training.marked_meshes(bpy.context)
+    check(len(names) == 24 and all(len(mesh.marks) == 24 and len(mesh.parts) == 2 for mesh in meshes), "all marks of both objects")
+    for mesh in meshes:
+        errors = [numpy.linalg.norm(mesh.place(n) + _origin(kept[mesh.name[:11]][0]) - truth(mesh.name[:11])[n]) for n in names]
+        check(max(errors) < 0.02, f"the marks are where they were put: {max(errors)}")
+    settings.model_path = os.path.join(OUT, "parts.focal")
+    check(bpy.ops.focal.train() == {"FINISHED"}, "learned")
+    obj, other = kept[TRAINING[0]]
+    twice = obj.focal.landmarks.add()
+    twice.name = other.focal.landmarks[0].name
+    activate(obj)
+    obj.focal.active = len(obj.focal.landmarks) - 1
+    bpy.ops.focal.landmark_cursor()
+    check("and on another object" in refused(bpy.ops.focal.train), "a landmark of two objects is refused")
+    for pair in kept.values():
+        for one in pair:
+            bpy.data.objects.remove(one)
+    settings.training.clear()
+    step("trained on characters of two objects")
+
+
+def _origin(obj):
+    x, y, z = obj.matrix_world.translation
+    return numpy.array([x, z, -y])
 
 
 def test_rigs():

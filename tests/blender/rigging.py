@@ -4,10 +4,9 @@ import shutil
 
 import bpy
 import numpy
-from mathutils import Vector
 
 import pictures
-from common import OTHERS, OUT, activate, check, load_character, refused, step, truth, weight_of, world
+from common import OTHERS, OUT, activate, check, in_two, load_character, refused, step, truth, weight_of, world
 
 TEMPLATE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../samples/templates/humanoid.json")
 
@@ -100,25 +99,6 @@ def test_collection():
     for name in OTHERS[1:]:
         check(bpy.data.objects[name].modifiers[0].type == "ARMATURE", f"{name} is rigged")
     step("a collection")
-
-
-def in_two(obj):
-    """The object with its upper half as another object."""
-    activate(obj)
-    middle = numpy.mean([v.co.z for v in obj.data.vertices])
-    for polygon in obj.data.polygons:
-        polygon.select = polygon.center.z > middle
-    for vertex in obj.data.vertices:
-        vertex.select = vertex.co.z > middle
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.separate(type="SELECTED")
-    bpy.ops.object.mode_set(mode="OBJECT")
-    other = next(o for o in bpy.context.selected_objects if o != obj)
-    bpy.context.view_layer.update()
-    other.matrix_world.translation.x += 1  # each object has an origin of its own
-    for vertex in other.data.vertices:
-        vertex.co = other.matrix_world.inverted() @ (other.matrix_world @ vertex.co - Vector((1, 0, 0)))
-    return other
 
 
 def test_character():

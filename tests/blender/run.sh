@@ -1,8 +1,8 @@
 #!/bin/sh
 # Runs one test of the Blender add-on in a Blender of its own settings.
-# usage: run.sh addon|window ZIP CREATURES WORK      77: what it needs is not installed
+# usage: run.sh addon|window|stock ZIP CREATURES WORK      77: what it needs is not there
 set -eu
-kind=$1 zip=$2 creatures=$3 work=$4
+kind=$1 zip=$2 creatures=$3 work=$4 family=humanoid
 here=$(cd "$(dirname "$0")" && pwd)
 blender=${FOCAL_BLENDER:-blender}
 
@@ -29,12 +29,20 @@ if [ "$kind" = window ]; then
   DISPLAY=:$(cat "$work/display")
   export DISPLAY
   options="$options --no-window-focus --window-geometry 0 0 800 500 --enable-event-simulate"
+elif [ "$kind" = stock ]; then
+  unzip -l "$zip" | grep -q 'focal/models/humanoid\.focal$' || {
+    echo "skipped: the zip has no stock models; samples/stock/make.sh makes them, and the next build packs them"
+    exit 77
+  }
+  family=game_humanoid
+  "$creatures" "$work/samples" --family game_humanoid --train 0 --test 1 --seed 3
+  options="$options -b"
 else
   "$creatures" "$work/samples" --family humanoid --train 6 --test 3
   options="$options -b"
 fi
 # shellcheck disable=SC2086  # the options are words
-"$blender" $options --python "$here/$kind.py" -- "$zip" "$work/samples/humanoid" "$work/out" > "$work/log" 2>&1 || {
+"$blender" $options --python "$here/$kind.py" -- "$zip" "$work/samples/$family" "$work/out" > "$work/log" 2>&1 || {
   code=$?
   cat "$work/log"
   exit $code

@@ -10,10 +10,10 @@ bl_info = {
 }
 
 from . import (batch, binding, correction, detection, engine, jobs, landmark_edit, landmark_exchange, landmark_pick, model_files, overlay, panels,  # noqa: E402
-               preferences, properties, rigging, segmentation, training, vote_map)
+               preferences, properties, rigging, rigify, segmentation, training, vote_map)
 
 _MODULES = (properties, preferences, model_files, jobs, landmark_edit, landmark_exchange, landmark_pick, training, detection, correction, rigging,
-            binding, segmentation, batch, vote_map, panels, overlay)
+            rigify, binding, segmentation, batch, vote_map, panels, overlay)
 
 # Blender's glTF importer looks for this name in each add-on.
 glTF2ImportUserExtension = landmark_exchange.LandmarksOfFile

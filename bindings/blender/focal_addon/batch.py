@@ -1,4 +1,4 @@
-"""All meshes of a collection in one go, and one step of undo."""
+"""All meshes of a collection in one go, each for itself or as one character, and one step of undo."""
 import bpy
 
 from .detection import Target, write_landmarks
@@ -20,11 +20,10 @@ at the end and does not stop the others. Esc cancels"""
         if settings.batch is None:
             raise Unusable("Choose a collection")
         self._rig, self._failed, targets = settings.batch_rig, [], []
-        for obj in settings.batch.all_objects:
-            if obj.type != "MESH":
-                continue
+        meshes = [obj for obj in settings.batch.all_objects if obj.type == "MESH"]
+        for group in [meshes] if settings.batch_together and meshes else [[obj] for obj in meshes]:
             try:
-                targets.append((RigTarget if self._rig else Target)(context, obj))
+                targets.append((RigTarget if self._rig else Target)(context, group))
             except Unusable as error:
                 self._failed.append(str(error))
         if not targets:
@@ -59,7 +58,8 @@ at the end and does not stop the others. Esc cancels"""
             except Unusable as error:
                 self._failed.append(str(error))
         context.scene.focal.report = "\n".join(self._failed)
-        text = f"{written} meshes" + (f", {len(self._failed)} left out: {self._failed[0]}" if self._failed else "")
+        what = "character" if context.scene.focal.batch_together else "meshes"
+        text = f"{written} {what}" + (f", {len(self._failed)} left out: {self._failed[0]}" if self._failed else "")
         self.report({"WARNING"} if self._failed else {"INFO"}, text)
 
 

@@ -7,7 +7,7 @@ import bpy
 from bpy.props import BoolProperty
 
 from . import display, engine, landmark_data, vote_map
-from .geometry import Character, Surface, Unusable, character_of, hints_of, object_named
+from .geometry import Character, Surface, Unusable, character_of, hints_of, object_named, remember_character
 from .jobs import JobOperator
 from .landmark_data import active_of
 from .model_files import model_path, name_of
@@ -176,10 +176,10 @@ def write_landmarks(context, objects, target, detection, keep_marked=True):
         mark.confidence = found.confidence
         mark.expected_error = found.expected_error
         _write_runner_up(mark, target, number, found.runner_up)
+    remember_character(objects)
     for obj in objects:
         obj.focal.model = target.model_name
         obj.focal.category_fit = detection.category_fit
-        remember_character(obj, objects)
         display.update_empties(context, obj)
         display.refresh(context, obj)
 
@@ -187,13 +187,6 @@ def write_landmarks(context, objects, target, detection, keep_marked=True):
 def _by_hand(obj, name):
     at = landmark_data.index_of(obj, name)
     return at >= 0 and obj.focal.landmarks[at].by_hand
-
-
-def remember_character(obj, objects):
-    """So that a correction of one of its objects looks at all of them again."""
-    obj.focal.character.clear()
-    for other in objects if len(objects) > 1 else ():
-        obj.focal.character.add().object = other
 
 
 def _write_runner_up(mark, target, number, place):

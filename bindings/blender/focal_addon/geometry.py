@@ -235,8 +235,21 @@ def character_of(context, obj):
     chosen = selected_meshes(context)
     if obj is None or (obj in chosen and len(chosen) > 1):
         return chosen or [obj]
+    return [other for other in remembered_character(obj) if other == obj or other.name in context.scene.objects]
+
+
+def remembered_character(obj):
+    """The object and those that were looked at, or listed for training, as one character with it."""
     known = [item.object for item in obj.focal.character if item.object is not None] if obj.type == "MESH" else []
-    return [obj] + [other for other in known if other != obj and other.name in context.scene.objects]
+    return [obj] + [other for other in known if other != obj and other.type == "MESH"]
+
+
+def remember_character(objects):
+    """So that a correction of one of them looks at all of them again, and one row of the training list stands for all."""
+    for obj in objects:
+        obj.focal.character.clear()
+        for other in objects if len(objects) > 1 else ():
+            obj.focal.character.add().object = other
 
 
 def object_named(name):

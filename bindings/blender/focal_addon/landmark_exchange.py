@@ -7,8 +7,7 @@ from bpy_extras.io_utils import ExportHelper, ImportHelper
 from mathutils import Vector
 
 from . import landmark_data, landmark_file
-from .detection import remember_character
-from .geometry import FROM_GLTF, TO_GLTF, Surface, Unusable
+from .geometry import FROM_GLTF, TO_GLTF, Surface, Unusable, remember_character
 from .landmark_data import ensure, place_near
 from .landmark_edit import LandmarkOperator
 
@@ -101,9 +100,8 @@ class LandmarksOfFile:
             if entries:
                 objects.append(vnode.blender_object)
                 _write_list(objects[-1], entries, places)
-        for obj in objects:
-            remember_character(obj, objects)
         if objects:
+            remember_character(objects)
             _remove_nodes(gltf)
 
 

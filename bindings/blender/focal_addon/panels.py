@@ -1,8 +1,8 @@
 """The sidebar: press N in the 3D view, tab "focal"."""
 import bpy
 
-from . import engine, jobs, landmark_data, names
-from .geometry import armature_of, problem_of
+from . import engine, jobs, landmark_data, names, rigify
+from .geometry import armature_of, problem_of, remembered_character
 from .landmark_data import active_of
 from .landmark_edit import may_accept
 from .preferences import draw_problem, wrapped
@@ -36,9 +36,10 @@ class FOCAL_UL_training(bpy.types.UIList):
             icon, text = "ARMATURE_DATA", f"{len(armature.data.bones)} bones" if armature is not None else "no rig"
             good = armature is not None
         else:
-            placed, total, _ = landmark_data.counts(obj)
+            placed, total, _ = (sum(numbers) for numbers in zip(*map(landmark_data.counts, remembered_character(obj))))
             icon, text, good = "MESH_DATA", f"{placed}/{total}" if total else "no marks", placed > 0
-        row.label(text=obj.name, icon=icon if good else "ERROR")
+        others = len(remembered_character(obj)) - 1
+        row.label(text=obj.name + (f" and {others} more" if others else ""), icon=icon if good else "ERROR")
         right = row.row()
         right.alignment = "RIGHT"
         right.alert = not good
@@ -216,6 +217,7 @@ class FOCAL_PT_training(SidebarPanel, bpy.types.Panel):
         row.template_list("FOCAL_UL_training", "", settings, "training", settings, "training_active", rows=4)
         side = row.column(align=True)
         side.operator("focal.training_add", text="", icon="ADD")
+        side.operator("focal.training_add", text="", icon="LINKED").together = True
         side.operator("focal.training_remove", text="", icon="REMOVE")
         settings_column(layout).row().prop(settings, "quality", expand=True)
         row = layout.row(align=True)
@@ -275,6 +277,8 @@ class FOCAL_PT_rig(SidebarPanel, bpy.types.Panel):
         row.scale_y = 1.3
         row.operator("focal.rig", icon="ARMATURE_DATA")
         row.operator("focal.bind", icon="MOD_VERTEX_WEIGHT")
+        if rigify.metarig_of(obj) is not None:
+            layout.operator("focal.rigify_bind", icon="OUTLINER_OB_ARMATURE")
 
 
 class FOCAL_PT_segmentation(SidebarPanel, bpy.types.Panel):
@@ -298,6 +302,7 @@ class FOCAL_PT_batch(SidebarPanel, bpy.types.Panel):
         layout, settings = self.layout, context.scene.focal
         column = settings_column(layout)
         column.prop(settings, "batch")
+        column.prop(settings, "batch_together")
         column.prop(settings, "batch_rig")
         layout.operator("focal.batch", icon="OUTLINER_COLLECTION")
         for paragraph in settings.report.split("\n")[:6] if settings.report else ():

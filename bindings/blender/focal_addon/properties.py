@@ -136,6 +136,8 @@ class FocalScene(bpy.types.PropertyGroup):
     parts_as_groups: BoolProperty(name="Vertex groups", default=True, description="One vertex group for each part")
     parts_as_colours: BoolProperty(name="Colours", default=True, description="Parts as a colour attribute")
     batch: PointerProperty(type=bpy.types.Collection, name="Collection", description="Every mesh of it is worked on")
+    batch_together: BoolProperty(name="One character", description="The meshes of the collection are the parts of one character: "
+                                                                   "one armature; else each is worked on by itself")
     batch_rig: BoolProperty(name="Rig too", description="Also give each mesh its armature and weights")
     report: StringProperty(description="What the last run over a collection left out, and why")
 

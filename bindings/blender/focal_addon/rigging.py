@@ -5,8 +5,9 @@ import bpy
 import numpy
 from mathutils import Quaternion, Vector
 
-from .detection import Target, remember_character, write_landmarks
-from .geometry import FROM_GLTF, Unusable, armature_of, character_of, hints_of
+from . import rigify
+from .detection import Target, write_landmarks
+from .geometry import FROM_GLTF, Unusable, armature_of, character_of, hints_of, remember_character
 from .gltf import Selection
 from .jobs import JobOperator
 
@@ -84,8 +85,7 @@ def write_rig(context, objects, target, result):
     if context.scene.focal.rig_landmarks or not detection.joint_names:  # a model of rigs has landmarks of its own, which say little
         write_landmarks(context, objects, target, detection)
     else:
-        for obj in objects:
-            remember_character(obj, objects)
+        remember_character(objects)
     old = {armature_of(obj) for obj in objects} - {None}
     for obj in objects:
         _remove_old_rig(obj)
@@ -96,6 +96,8 @@ def write_rig(context, objects, target, result):
         _attach(context, obj, armature)
     for one in old:
         _remove_unused(one)
+    if context.scene.focal.bone_names == "RIGIFY_METARIG" and rigify.is_metarig(armature):
+        rigify.prepare(context, armature)
     return armature
 
 
