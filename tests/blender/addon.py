@@ -11,6 +11,7 @@ import installation  # noqa: E402
 import learning  # noqa: E402
 import marks  # noqa: E402
 import rigging  # noqa: E402
+import skeletons  # noqa: E402
 from common import OTHERS, OUT  # noqa: E402
 
 
@@ -37,6 +38,7 @@ def main():
     detecting.test_extras()
     corrections.test(bpy.data.objects[OTHERS[0]])
     detecting.test_votes_and_parts()
+    skeletons.test(bpy.data.objects[OTHERS[0]])
     rigging.test_rig()
     rigging.test_collection()
     learning.test_parts()

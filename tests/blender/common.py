@@ -12,7 +12,8 @@ if not hasattr(numpy, "bool"):  # the glTF add-on of Blender 3.4 asks NumPy for 
     numpy.bool = bool
 
 ZIP, SAMPLES, OUT = sys.argv[sys.argv.index("--") + 1:]
-MODULE = "focal_addon"
+AS_EXTENSION = bpy.app.version >= (4, 2, 0)
+MODULE = "bl_ext.user_default.focal_addon" if AS_EXTENSION else "focal_addon"
 TRAINING = [f"humanoid_{i:02}" for i in range(6)]
 OTHERS = [f"humanoid_{i:02}" for i in range(6, 9)]
 _began = time.perf_counter()
@@ -34,6 +35,9 @@ def check(condition, text):
 
 
 def install():
+    if AS_EXTENSION:
+        bpy.ops.extensions.package_install_files(filepath=ZIP, repo="user_default", enable_on_install=True)
+        return sys.modules[MODULE]
     bpy.ops.preferences.addon_install(filepath=ZIP, overwrite=True)
     check(bpy.ops.preferences.addon_enable(module=MODULE) == {"FINISHED"}, "the add-on is enabled")
     return sys.modules[MODULE]

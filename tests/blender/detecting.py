@@ -35,7 +35,6 @@ def test_refusals():
     check("no stock model 'dragon'" in refused(bpy.ops.focal.detect), "no stock model")
     check("mine" in refused(bpy.ops.focal.detect), "the stock models are named")
     settings.model_path = path
-    check("was not learned from rigged characters" in refused(bpy.ops.focal.rig), "no skeleton")
     twin = bpy.data.objects.new("twin", obj.data)
     check("shares its mesh" in refused(bpy.ops.focal.rig), "a mesh of two objects")
     bpy.data.objects.remove(twin)

@@ -6,6 +6,7 @@ from .engine import FAILURES, message_of
 from .geometry import Unusable
 from .jobs import Cancelled, JobOperator
 from .rigging import RigTarget, write_rig
+from .templates import TemplateError
 
 
 class FOCAL_OT_batch(JobOperator, bpy.types.Operator):
@@ -36,7 +37,7 @@ at the end and does not stop the others. Esc cancels"""
             share = number / len(targets), (number + 1) / len(targets)
             try:
                 result = target.rig(job, *share) if self._rig else target.detect(job, *share)
-            except FAILURES as error:
+            except (Unusable, TemplateError, *FAILURES) as error:
                 if job.cancelled:
                     raise Cancelled from error
                 self._failed.append(f"'{target.surface.name}': {message_of(error)}")

@@ -12,6 +12,7 @@ import bpy
 
 from .engine import FAILURES, message_of, package
 from .geometry import Unusable
+from .templates import TemplateError
 
 TIMER_SECONDS = 0.02
 _REDRAW_EVERY = 8  # timer events: drawing the interface costs time that the work could use
@@ -74,7 +75,7 @@ class Job:
             self.done = True
         except Cancelled:
             pass
-        except FAILURES as error:
+        except (Unusable, TemplateError, *FAILURES) as error:
             if not self.cancelled:
                 self.failure = message_of(error)
         except Exception as error:  # a mistake of ours: the console tells where, the user that it happened

@@ -10,8 +10,10 @@ from .properties import STATUS_ICON, STATUS_NAME
 
 
 class FOCAL_UL_landmarks(bpy.types.UIList):
-    def draw_item(self, _context, layout, _data, item, _icon, _active_data, _active_property, _index):
+    def draw_item(self, context, layout, _data, item, _icon, _active_data, _active_property, _index):
         row = layout.row(align=True)
+        if context.scene.focal.choose:
+            row.prop(item, "chosen", text="")
         row.prop(item, "name", text="", emboss=False, icon=STATUS_ICON[item.status])
         right = row.row()
         right.alignment = "RIGHT"

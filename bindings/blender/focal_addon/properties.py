@@ -56,6 +56,7 @@ class FocalLandmark(bpy.types.PropertyGroup):
     runner_up_confidence: FloatProperty(name="Second-best confidence", min=0, max=1)
     runner_up_triangle: IntProperty(default=-1)
     runner_up_barycentric: FloatVectorProperty(size=3)
+    chosen: BoolProperty(name="Choose", description="For a joint: Joint from Landmarks takes those that are ticked")
     told_absent: BoolProperty(description="Absent by hand: no model looks for it")
 
     @property
@@ -88,6 +89,24 @@ class FocalLandmarkError(bpy.types.PropertyGroup):
     share: FloatProperty(name="Error", description="In per cent of the square root of the surface's area",
                          subtype="PERCENTAGE", precision=2)
     count: IntProperty(name="Meshes it was measured on")
+
+
+class FocalName(bpy.types.PropertyGroup):
+    name: StringProperty()
+
+
+class FocalJoint(bpy.types.PropertyGroup):
+    """A joint of a skeleton template, see docs/rigs.md."""
+    name: StringProperty(name="Name", description="Of the bone; .L and .R, or left and right, tell sides apart")
+    parent: StringProperty(name="Parent", description="The joint that it hangs on; empty: a root")
+    kind: EnumProperty(name="Lies", items=(
+        ("CENTRE", "Inside", "In the middle of the limb under its landmarks, at the mean of these places"),
+        ("SURFACE", "Middle", "In the middle of its landmarks"),
+        ("BETWEEN", "Between", "On the line between two landmarks or joints")))
+    places: CollectionProperty(type=FocalName, description="Landmarks, or joints where it lies between two")
+    share: FloatProperty(name="Share", min=0, max=1, default=0.5, subtype="FACTOR",
+                         description="How far it lies on the way from the first place to the second, from 0 to 1")
+    tip: StringProperty(name="Tip", description="The landmark where its bone ends; empty: the bone goes on to the skin")
 
 
 class FocalScene(bpy.types.PropertyGroup):
@@ -127,6 +146,10 @@ class FocalScene(bpy.types.PropertyGroup):
     template_path: StringProperty(name="Skeleton", subtype="FILE_PATH",
                                   description="A skeleton of your own over the model's landmarks, as a JSON file; empty: "
                                               "that of the characters that taught the model")
+    joints: CollectionProperty(type=FocalJoint, description="A skeleton for models of marks; empty: the template that suits their "
+                                                            "landmarks")
+    joint_active: IntProperty(name="Active joint")
+    choose: BoolProperty(name="Choose Landmarks", description="Tick landmarks in the list, to make joints of them")
     replace_rig: BoolProperty(name="Replace", description="Take the old armature's modifier and weights off first")
     segmentation: EnumProperty(name="Parts", items=(
         ("AUTO", "Automatic", "By the skeleton where the model has one, else by the nearest landmark"),
@@ -142,7 +165,7 @@ class FocalScene(bpy.types.PropertyGroup):
     report: StringProperty(description="What the last run over a collection left out, and why")
 
 
-CLASSES = (FocalLandmark, FocalTrainingMesh, FocalObject, FocalLandmarkError, FocalScene)
+CLASSES = (FocalLandmark, FocalTrainingMesh, FocalObject, FocalLandmarkError, FocalName, FocalJoint, FocalScene)
 
 
 def register():

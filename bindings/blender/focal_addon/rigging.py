@@ -1,11 +1,12 @@
 """An armature with weights for a mesh, from its landmarks' detection."""
+import json
 import os
 
 import bpy
 import numpy
 from mathutils import Quaternion, Vector
 
-from . import rigify
+from . import rigify, template_edit, templates
 from .detection import Target, write_landmarks
 from .geometry import FROM_GLTF, Unusable, armature_of, character_of, hints_of, remember_character
 from .gltf import Selection
@@ -28,15 +29,22 @@ class RigTarget(Target):
             _check_riggable(obj, settings)
         self.options = {"names": settings.bone_names.lower(), "symmetric": settings.symmetric,
                         "ground_root": settings.ground_root, "skeleton_template": _template(settings)}
+        self._own = template_edit.as_template(settings)
 
     def rig(self, job, start=0.0, end=1.0):
         """(detection, joints, joint numbers, weights, warnings); runs in the thread."""
         middle = start if self.ready else start + 0.5 * (end - start)
         detection = self.detect(job, start, middle)
         task = job.begin(f"rigging {self.surface.name}", middle, end)
-        skeleton = detection.rig(task=task, **self.options)
+        skeleton = detection.rig(task=task, **{**self.options, "skeleton_template": self._skeleton(detection)})
         numbers, weights = skeleton.weights
         return detection, skeleton.joints, numbers, weights, skeleton.warnings
+
+    def _skeleton(self, detection):
+        """For a model of marks, which has none: the user's joints, else the template whose landmarks it finds."""
+        if self.options["skeleton_template"] is not None or detection.joint_names:
+            return self.options["skeleton_template"]
+        return json.dumps(self._own) if self._own else templates.text_for([found.name for found in detection])
 
 
 def _check_riggable(obj, settings):
@@ -50,6 +58,7 @@ def _check_riggable(obj, settings):
 
 
 def _template(settings):
+    """The text of the file that the settings name, or None."""
     if not settings.template_path:
         return None
     path = bpy.path.abspath(settings.template_path)

@@ -65,7 +65,7 @@ class JointOperator(LandmarkOperator):
     def execute(self, context):
         try:
             return super().execute(context)
-        except TemplateError as error:
+        except (TemplateError, OSError) as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
 
