@@ -71,6 +71,7 @@ def test_parts():
     settings, kept = bpy.context.scene.focal, {}
     settings.training.clear()
     for name in TRAINING[:2]:
+        bpy.data.objects[name].name = f"whole {name}"
         obj = load_character(name)
         other = in_two(obj)
         kept[name] = obj, other
@@ -90,7 +91,8 @@ def test_parts():
     meshes, names = training.marked_meshes(bpy.context)
     check(len(names) == 24 and all(len(mesh.marks) == 24 and len(mesh.parts) == 2 for mesh in meshes), "all marks of both objects")
     for mesh in meshes:
-        errors = [numpy.linalg.norm(mesh.place(n) + _origin(kept[mesh.name[:11]][0]) - truth(mesh.name[:11])[n]) for n in names]
+        places, origin = truth(mesh.name), _origin(kept[mesh.name][0])
+        errors = [numpy.linalg.norm(mesh.place(n) + origin - places[n]) for n in names]
         check(max(errors) < 0.02, f"the marks are where they were put: {max(errors)}")
     settings.model_path = os.path.join(OUT, "parts.focal")
     check(bpy.ops.focal.train() == {"FINISHED"}, "learned")
@@ -104,6 +106,8 @@ def test_parts():
     for pair in kept.values():
         for one in pair:
             bpy.data.objects.remove(one)
+    for name in kept:
+        bpy.data.objects[f"whole {name}"].name = name
     settings.training.clear()
     step("trained on characters of two objects")
 

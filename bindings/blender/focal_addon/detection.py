@@ -235,6 +235,7 @@ class FOCAL_OT_show_votes(JobOperator, bpy.types.Operator):
         if not context.scene.focal.keep_votes:
             vote_map.show(context, obj, surface, colours)
             return
+        vote_map.hide(obj)
         display.write_colours(obj.data, display.VOTES, "POINT", colours)
         display.show_colours(context)
 

@@ -8,7 +8,7 @@ from .preferences import wrapped
 
 class FOCAL_UL_joints(bpy.types.UIList):
     def draw_item(self, _context, layout, _data, item, _icon, _active_data, _active_property, _index):
-        row = layout.row()
+        row = layout.split(factor=0.62)
         row.prop(item, "name", text="", emboss=False, icon="BONE_DATA")
         right = row.row()
         right.enabled = False
@@ -50,9 +50,9 @@ class FOCAL_PT_skeleton(SidebarPanel, bpy.types.Panel):
             self._draw_joint(layout, settings, obj, settings.joints[settings.joint_active])
         elif not settings.joints:
             self._draw_hint(layout, obj)
-        row = layout.row(align=True)
-        row.operator("focal.joint_show", icon="ARMATURE_DATA")
-        row.operator("focal.joint_take", icon="CHECKMARK")
+        column = layout.column(align=True)
+        column.operator("focal.joint_show", icon="ARMATURE_DATA")
+        column.operator("focal.joint_take", icon="CHECKMARK")
 
     def _draw_joint(self, layout, settings, obj, joint):
         column = settings_column(layout.box())

@@ -1,5 +1,4 @@
 """An armature with weights for a mesh, from its landmarks' detection."""
-import json
 import os
 
 import bpy
@@ -44,7 +43,7 @@ class RigTarget(Target):
         """For a model of marks, which has none: the user's joints, else the template whose landmarks it finds."""
         if self.options["skeleton_template"] is not None or detection.joint_names:
             return self.options["skeleton_template"]
-        return json.dumps(self._own) if self._own else templates.text_for([found.name for found in detection])
+        return templates.text_for([found.name for found in detection], self._own)
 
 
 def _check_riggable(obj, settings):

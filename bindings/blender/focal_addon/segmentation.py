@@ -2,7 +2,7 @@
 import bpy
 import numpy
 
-from . import display
+from . import display, vote_map
 from .detection import Target, model_of
 from .geometry import character_of
 from .jobs import JobOperator
@@ -46,6 +46,7 @@ def _write(context, obj, faces, names):
     if settings.parts_as_colours:
         corners = numpy.repeat(faces, _corner_counts(obj.data))
         display.write_colours(obj.data, display.PARTS, "CORNER", display.part_colours(corners))
+        vote_map.hide(obj)
         display.show_colours(context)
 
 

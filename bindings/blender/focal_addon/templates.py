@@ -60,14 +60,23 @@ def best_for(landmarks):
     return min(rows, key=lambda row: len(row[2]) / len(landmarks_of(row[1])), default=None)
 
 
-def text_for(landmarks):
-    """The JSON of the shipped template that suits the landmarks; TemplateError names what the best one lacks."""
+def _some(names):
+    return ", ".join(names[:8]) + (" ..." if len(names) > 8 else "")
+
+
+def text_for(landmarks, own=None):
+    """The JSON of the user's own template, or of the shipped one that suits the landmarks; TemplateError names what is lacking."""
+    if own is not None:
+        missing = missing_of(own, set(landmarks))
+        if missing:
+            raise TemplateError(f"The joints under Skeleton name landmarks that the model does not know: {_some(missing)}")
+        return json.dumps(own)
     best = best_for(landmarks)
     if best is None:
         raise TemplateError("The model has no skeleton, and no template came with the add-on")
     name, template, missing = best
     if missing:
         raise TemplateError(f"The model was not learned from rigged characters and has no skeleton. The template '{name}' lacks the "
-                            f"landmarks {', '.join(missing[:8])}{' ...' if len(missing) > 8 else ''}: mark and train them, or name "
+                            f"landmarks {_some(missing)}: mark and train them, or name "
                             "joints under Skeleton")
     return json.dumps(template)

@@ -37,6 +37,11 @@ def shown(obj):
     return found if found is not None and len(found.positions) == len(obj.data.vertices) else None
 
 
+def hide(obj):
+    """Before other colours of the mesh are shown, which it would cover."""
+    _maps.pop(obj.name, None)
+
+
 def _draw():
     for name in list(_maps):
         obj = bpy.data.objects.get(name)
