@@ -32,6 +32,8 @@ def prepare(context, armature):
             _add_heel(bones, side)
         bpy.ops.object.mode_set(mode="OBJECT")
     _give_types(armature, chains)
+    if hasattr(armature.data, "collections"):  # Blender 4
+        _give_collections(armature.data, chains)
 
 
 def _chains(bones):
@@ -80,6 +82,19 @@ def _give_types(armature, chains):
     for bone in bones:
         if bone.name not in inside:
             bone["rigify_type"] = "basic.super_copy"
+
+
+def _give_collections(data, chains):
+    """Rows of buttons in the generated rig's panel: without any, Rigify of Blender 4 generates nothing."""
+    rows = {"limbs.arm": ("Arm", 2), "limbs.leg": ("Leg", 3), "limbs.super_finger": ("Fingers", 4)}
+    chain_of = {name: (kind, name[-2:]) for kind, names in chains for name in names}
+    for bone in data.bones:
+        kind, side = chain_of.get(bone.name.replace("heel.02", "foot"), ("", ""))
+        name, row = rows.get(kind, ("Body", 1))
+        name += side if row > 1 else ""
+        collection = data.collections.get(name) or data.collections.new(name)
+        collection["rigify_ui_row"] = row
+        collection.assign(bone)
 
 
 class FOCAL_OT_rigify_bind(bpy.types.Operator):
