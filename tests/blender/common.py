@@ -6,12 +6,16 @@ import time
 
 import bpy
 import numpy
+from mathutils import Vector
 
 if not hasattr(numpy, "bool"):  # the glTF add-on of Blender 3.4 asks NumPy for it
     numpy.bool = bool
 
 ZIP, SAMPLES, OUT = sys.argv[sys.argv.index("--") + 1:]
-MODULE = "focal_addon"
+AS_EXTENSION = bpy.app.version >= (4, 2, 0)
+MODULE = "bl_ext.user_default.focal_addon" if AS_EXTENSION else "focal_addon"
+TRAINING = [f"humanoid_{i:02}" for i in range(6)]
+OTHERS = [f"humanoid_{i:02}" for i in range(6, 9)]
 _began = time.perf_counter()
 _last = _began
 
@@ -31,6 +35,9 @@ def check(condition, text):
 
 
 def install():
+    if AS_EXTENSION:
+        bpy.ops.extensions.package_install_files(filepath=ZIP, repo="user_default", enable_on_install=True)
+        return sys.modules[MODULE]
     bpy.ops.preferences.addon_install(filepath=ZIP, overwrite=True)
     check(bpy.ops.preferences.addon_enable(module=MODULE) == {"FINISHED"}, "the add-on is enabled")
     return sys.modules[MODULE]
@@ -76,6 +83,31 @@ def activate(obj):
         other.select_set(False)
     obj.select_set(True)
     bpy.context.view_layer.objects.active = obj
+
+
+def in_two(obj):
+    """The object with its upper half as another object."""
+    activate(obj)
+    middle = numpy.mean([v.co.z for v in obj.data.vertices])
+    for polygon in obj.data.polygons:
+        polygon.select = polygon.center.z > middle
+    for vertex in obj.data.vertices:
+        vertex.select = vertex.co.z > middle
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.separate(type="SELECTED")
+    bpy.ops.object.mode_set(mode="OBJECT")
+    other = next(o for o in bpy.context.selected_objects if o != obj)
+    bpy.context.view_layer.update()
+    other.matrix_world.translation.x += 1  # each object has an origin of its own
+    for vertex in other.data.vertices:
+        vertex.co = other.matrix_world.inverted() @ (other.matrix_world @ vertex.co - Vector((1, 0, 0)))
+    return other
+
+
+def weight_of(obj, bone):
+    """The sum of a bone's weights on an object."""
+    group = obj.vertex_groups.get(bone)
+    return 0 if group is None else sum(g.weight for v in obj.data.vertices for g in v.groups if g.group == group.index)
 
 
 def refused(operator, **arguments):

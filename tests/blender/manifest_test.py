@@ -78,7 +78,11 @@ def main(path, version):
         check_manifest(manifest)
         check(manifest["version"] == version, f"the version is focal's: {version}")
         check_sources(archive, top, manifest)
-        check(f"{top}/LICENSE" in names, "the licence is inside")
+        check(manifest["license"][0] == "SPDX:GPL-3.0-or-later", "add-ons are under the GPL")
+        check("GNU GENERAL PUBLIC LICENSE" in archive.read(f"{top}/LICENSE").decode()[:200], "and its text is inside")
+        check("Apache License" in archive.read(f"{top}/focal/LICENSE").decode()[:200], "so is that of the engine")
+        check(f"{top}/focal/THIRD_PARTY.md" in names, "and what the engine is built from")
+        check({f"{top}/templates/{name}.json" for name in ("humanoid", "quadruped", "hand")} <= set(names), "templates are inside")
         check(not any("__pycache__" in name for name in names), "no caches inside")
         libraries = [n.rsplit("/", 1)[1] for n in names if re.search(r"\.(so|dll|dylib)(\.\d+)*[a-z]?$", n)]
         check(any("focal" in n for n in libraries), f"focal's library is inside: {libraries}")

@@ -11,40 +11,17 @@ import traceback
 import bpy
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import picking  # noqa: E402
 from common import MODULE, OUT, SAMPLES, activate, check, install, load_character, resident_bytes, step  # noqa: E402
+from in_window import OTHER, call, jobs, view, wait_for_job  # noqa: E402
 
 TRAINING = ("humanoid_00", "humanoid_01", "humanoid_02")
-OTHER = "humanoid_03"
 TICK = 0.050  # between timer events; some are left to drawing without a GPU, and to what else the machine does
 STALL = 1.0
 CYCLES = 100
 WARM_UP = 20  # until caches, undo steps and the allocator have what they keep
 MOST_GROWTH = 0.05
 ticks = []
-
-
-def view():
-    """The window's largest area, which is the 3D view."""
-    window = bpy.context.window_manager.windows[0]
-    area = max(window.screen.areas, key=lambda a: a.width * a.height)
-    region = next(r for r in area.regions if r.type == "WINDOW")
-    return {"window": window, "area": area, "region": region}
-
-
-def call(operator, *arguments, **options):
-    with bpy.context.temp_override(**view()):
-        return operator(*arguments, **options)
-
-
-def jobs():
-    return sys.modules[MODULE + ".jobs"]
-
-
-def wait_for_job(seconds):
-    end = time.perf_counter() + seconds
-    while jobs().current() is not None:
-        check(time.perf_counter() < end, "the work ends in time")
-        yield 0.005
 
 
 def record_ticks():
@@ -90,11 +67,14 @@ def train():
     """Progress rises, and the timer is never late."""
     ticks.clear()
     call(bpy.ops.focal.train, "INVOKE_DEFAULT")
-    job, seen = jobs().current(), []
+    job, seen, stages = jobs().current(), [], set()
     check(job is not None, "training runs")
     while jobs().current() is not None:
         seen.append(job.progress())
+        stages.add(job.step_name())
         yield 0.01
+    check(job.progress() == 1.0, "progress ends at 100 %")
+    check(len(stages) > 3 and all(name.startswith("Training") for name in stages), f"each stage has its name: {stages}")
     check(not job.failure and os.path.isfile(bpy.context.scene.focal.model_path), f"trained: {job.failure}")
     check(seen == sorted(seen) and len(set(seen)) > 5, "progress rises")
     found = gaps()
@@ -123,73 +103,6 @@ def cancel():
 
 def state():
     return {o.name: (o.type, len(o.focal.landmarks), len(o.children), len(o.modifiers)) for o in bpy.data.objects}
-
-
-def press(where, kind):
-    """A key or button, pressed and released in the middle of the view."""
-    x, y = (where["region"].x + where["region"].width // 2, where["region"].y + where["region"].height // 2)
-    for value in ("PRESS", "RELEASE"):
-        where["window"].event_simulate(type=kind, value=value, x=x, y=y)
-        yield 0.1
-
-
-def click():
-    """A click on the surface places the next landmark; Esc ends; undo takes it back."""
-    obj = bpy.data.objects[OTHER]
-    activate(obj)
-    call(bpy.ops.focal.landmark_add, name="belly")
-    call(bpy.ops.ed.undo_push, message="named")
-    call(bpy.ops.view3d.view_selected)
-    yield 0.3
-    where = view()
-    call(bpy.ops.focal.landmark_pick, "INVOKE_DEFAULT")
-    yield 0.1
-    yield from press(where, "LEFTMOUSE")
-    check(bpy.data.objects[OTHER].focal.landmarks["belly"].placed, "the click placed it")
-    yield from press(where, "ESC")
-    call(bpy.ops.ed.undo)
-    yield 0.1
-    check(not bpy.data.objects[OTHER].focal.landmarks["belly"].placed, "undo takes the click back")
-    call(bpy.ops.focal.landmark_remove, all=True)
-    call(bpy.ops.ed.undo_push, message="no landmarks")
-    step("placed by a click and undone")
-
-
-def places():
-    return [(m.name, m.status, tuple(m.position)) for m in bpy.data.objects[OTHER].focal.landmarks]
-
-
-def correct():
-    """On a detected mesh the others follow a correction: as a job, and undo takes the click back with them."""
-    activate(bpy.data.objects[OTHER])
-    call(bpy.ops.focal.detect, "INVOKE_DEFAULT")
-    yield from wait_for_job(10)
-    marks = bpy.data.objects[OTHER].focal.landmarks
-    bpy.data.objects[OTHER].focal.active = marks.find("nose")
-    call(bpy.ops.ed.undo_push, message="detected")
-    detected = places()
-    call(bpy.ops.focal.landmark_accept, "INVOKE_DEFAULT", True)
-    check(jobs().current() is not None, "the others are looked for again")
-    yield from wait_for_job(10)
-    check(bpy.data.objects[OTHER].focal.landmarks["nose"].status == "MARKED", "accepted")
-    accepted = places()
-    where = view()
-    call(bpy.ops.focal.landmark_pick, "INVOKE_DEFAULT")
-    yield 0.1
-    yield from press(where, "LEFTMOUSE")
-    yield from wait_for_job(10)
-    clicked = places()
-    check(sum(a != b for a, b in zip(clicked, accepted)) > 1, "the click moves the nose, and others after it")
-    yield from press(where, "ESC")
-    check(places() == clicked, "the end of clicking changes nothing")
-    for wanted in (accepted, None, detected):  # None: accepted, the others not yet looked for
-        call(bpy.ops.ed.undo)
-        yield 0.1
-        check(wanted is None or places() == wanted, "undo goes back by one correction")
-    call(bpy.ops.focal.landmark_remove, all=True)
-    bpy.data.objects[OTHER].focal.model = ""
-    call(bpy.ops.ed.undo_push, message="no landmarks again")
-    step("accepted and clicked, the others followed, undone")
 
 
 def cycles():
@@ -227,8 +140,7 @@ def test():
     yield 0.5
     yield from train()
     yield from cancel()
-    yield from click()
-    yield from correct()
+    yield from picking.test()
     yield from cycles()
     call(bpy.ops.focal.train, "INVOKE_DEFAULT")  # Blender ends while it runs, and must end well
     yield 0.3

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """focal for Blender: mark a few points on some meshes, learn them, find them on new ones, and rig those."""
 bl_info = {
     "name": "focal",
@@ -9,11 +10,15 @@ bl_info = {
     "category": "Rigging",
 }
 
-from . import (batch, binding, correction, detection, engine, jobs, landmark_edit, landmark_pick, overlay, panels,  # noqa: E402
-               preferences, properties, rigging, segmentation, training)
+from . import (batch, binding, correction, detection, engine, jobs, landmark_edit, landmark_exchange,  # noqa: E402
+               landmark_pick, model_files, overlay, panel_skeleton, panels, preferences, properties, rigging, rigify,
+               segmentation, template_edit, training, vote_map)
 
-_MODULES = (properties, preferences, jobs, landmark_edit, landmark_pick, training, detection, correction, rigging,
-            binding, segmentation, batch, panels, overlay)
+_MODULES = (properties, preferences, model_files, jobs, landmark_edit, landmark_exchange, landmark_pick, template_edit, training,
+            detection, correction, rigging, rigify, binding, segmentation, batch, vote_map, panels, panel_skeleton, overlay)
+
+# Blender's glTF importer looks for this name in each add-on.
+glTF2ImportUserExtension = landmark_exchange.LandmarksOfFile
 
 
 def register():

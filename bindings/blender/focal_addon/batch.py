@@ -1,4 +1,4 @@
-"""All meshes of a collection in one go, and one step of undo."""
+"""All meshes of a collection in one go, each for itself or as one character, and one step of undo."""
 import bpy
 
 from .detection import Target, write_landmarks
@@ -6,6 +6,7 @@ from .engine import FAILURES, message_of
 from .geometry import Unusable
 from .jobs import Cancelled, JobOperator
 from .rigging import RigTarget, write_rig
+from .templates import TemplateError
 
 
 class FOCAL_OT_batch(JobOperator, bpy.types.Operator):
@@ -20,11 +21,10 @@ at the end and does not stop the others. Esc cancels"""
         if settings.batch is None:
             raise Unusable("Choose a collection")
         self._rig, self._failed, targets = settings.batch_rig, [], []
-        for obj in settings.batch.all_objects:
-            if obj.type != "MESH":
-                continue
+        meshes = [obj for obj in settings.batch.all_objects if obj.type == "MESH"]
+        for group in [meshes] if settings.batch_together and meshes else [[obj] for obj in meshes]:
             try:
-                targets.append((RigTarget if self._rig else Target)(context, obj))
+                targets.append((RigTarget if self._rig else Target)(context, group))
             except Unusable as error:
                 self._failed.append(str(error))
         if not targets:
@@ -37,7 +37,7 @@ at the end and does not stop the others. Esc cancels"""
             share = number / len(targets), (number + 1) / len(targets)
             try:
                 result = target.rig(job, *share) if self._rig else target.detect(job, *share)
-            except FAILURES as error:
+            except (Unusable, TemplateError, *FAILURES) as error:
                 if job.cancelled:
                     raise Cancelled from error
                 self._failed.append(f"'{target.surface.name}': {message_of(error)}")
@@ -59,7 +59,8 @@ at the end and does not stop the others. Esc cancels"""
             except Unusable as error:
                 self._failed.append(str(error))
         context.scene.focal.report = "\n".join(self._failed)
-        text = f"{written} meshes" + (f", {len(self._failed)} left out: {self._failed[0]}" if self._failed else "")
+        what = "character" if context.scene.focal.batch_together else "meshes"
+        text = f"{written} {what}" + (f", {len(self._failed)} left out: {self._failed[0]}" if self._failed else "")
         self.report({"WARNING"} if self._failed else {"INFO"}, text)
 
 

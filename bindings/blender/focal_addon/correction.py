@@ -1,11 +1,12 @@
 """Landmarks set or accepted by hand stay, and the model chooses the others to suit them."""
 import bpy
+from bpy.props import BoolProperty
 
 from . import jobs, landmark_data
 from .detection import Target, write_landmarks
 from .geometry import Unusable, character_of, problem_of
 from .jobs import JobOperator
-from .training import model_path
+from .model_files import file_of, model_path
 
 
 class FOCAL_OT_resolve(JobOperator, bpy.types.Operator):
@@ -19,6 +20,10 @@ cancels"""
     def poll(cls, context):
         obj = context.active_object
         return super().poll(context) and obj is not None and obj.type == "MESH" and obj.focal.model != ""
+
+    with_step: BoolProperty(
+        options={"SKIP_SAVE", "HIDDEN"},
+        description="The correction before has no step of undo yet: it gets one also when this is cancelled")
 
     def prepare(self, context):
         self._target = Target(context, character_of(context, context.active_object))
@@ -42,17 +47,31 @@ cancels"""
             follow(context, obj, True)  # another correction came while this one was worked on
 
 
+    @property
+    def tells(self):
+        return not self.with_step
+
+    def _finish(self, context, job):
+        done = super()._finish(context, job)
+        if done != {"FINISHED"} and self.with_step:
+            bpy.ops.ed.undo_push(message="Correction")
+        return done
+
+    def tell_cancelled(self):
+        self.report({"INFO"}, "Cancelled: the correction stays, the others were not looked for")
+
+
 def _positions(objects):
     return {(obj.name, mark.name): mark.position.copy() for obj in objects for mark in obj.focal.landmarks if mark.placed}
 
 
-def follow(context, obj, in_window):
+def follow(context, obj, in_window, with_step=False):
     """After landmarks were set by hand: the others are looked for again where that is wanted. Whether they are.
-    in_window: as a job beside the user, else before this returns."""
+    in_window: as a job beside the user, else before this returns. with_step: see FOCAL_OT_resolve."""
     if not _wanted(context, obj):
         return False
     if jobs.current() is None:
-        bpy.ops.focal.resolve("INVOKE_DEFAULT" if in_window else "EXEC_DEFAULT")
+        bpy.ops.focal.resolve("INVOKE_DEFAULT" if in_window else "EXEC_DEFAULT", with_step=with_step)
     return True
 
 
@@ -63,7 +82,7 @@ def _wanted(context, obj):
     if problem_of(obj) or all(mark.by_hand for mark in obj.focal.landmarks):
         return False
     try:
-        return model_path(context, must_exist=True) == obj.focal.model
+        return model_path(context, must_exist=True) == file_of(obj.focal.model)
     except Unusable:
         return False
 

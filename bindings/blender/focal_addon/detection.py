@@ -6,11 +6,11 @@ import typing
 import bpy
 from bpy.props import BoolProperty
 
-from . import display, engine, landmark_data
-from .geometry import Character, Surface, Unusable, character_of, hints_of, object_named
+from . import display, engine, landmark_data, vote_map
+from .geometry import Character, Surface, Unusable, character_of, hints_of, object_named, remember_character
 from .jobs import JobOperator
 from .landmark_data import active_of
-from .training import model_path
+from .model_files import model_path, name_of
 
 _ANALYSIS_SHARE = 0.6  # of the time that a detection takes, about
 
@@ -46,9 +46,10 @@ class Target:
         self.character = Character([Surface(obj) for obj in objects])
         self.surface = self.character.surfaces[0]
         self.parts = self.character.parts()
-        self.path = model_path(context, must_exist=True)
-        stat = os.stat(self.path)
-        self.model_key = (self.path, stat.st_mtime_ns, stat.st_size, engine.context())
+        path = model_path(context, must_exist=True)
+        self.model_name = name_of(context.scene.focal.model_path)
+        stat = os.stat(path)
+        self.model_key = (path, stat.st_mtime_ns, stat.st_size, engine.context())
         self.quality = context.scene.focal.search.lower()
         self.key = (self.character.key(), self.model_key, self.quality)
         self.fixed = self.fixed_on(objects) if keep_marked else {}
@@ -175,10 +176,10 @@ def write_landmarks(context, objects, target, detection, keep_marked=True):
         mark.confidence = found.confidence
         mark.expected_error = found.expected_error
         _write_runner_up(mark, target, number, found.runner_up)
+    remember_character(objects)
     for obj in objects:
-        obj.focal.model = target.path
+        obj.focal.model = target.model_name
         obj.focal.category_fit = detection.category_fit
-        remember_character(obj, objects)
         display.update_empties(context, obj)
         display.refresh(context, obj)
 
@@ -186,13 +187,6 @@ def write_landmarks(context, objects, target, detection, keep_marked=True):
 def _by_hand(obj, name):
     at = landmark_data.index_of(obj, name)
     return at >= 0 and obj.focal.landmarks[at].by_hand
-
-
-def remember_character(obj, objects):
-    """So that a correction of one of its objects looks at all of them again."""
-    obj.focal.character.clear()
-    for other in objects if len(objects) > 1 else ():
-        obj.focal.character.add().object = other
 
 
 def _write_runner_up(mark, target, number, place):
@@ -208,7 +202,7 @@ def _write_runner_up(mark, target, number, place):
 
 
 class FOCAL_OT_show_votes(JobOperator, bpy.types.Operator):
-    """Colour the mesh by where the model looked for the active landmark: red is where most votes fell"""
+    """Colour the mesh by where the model looked for the active landmark: red is where most votes fell, dark blue where none did"""
     bl_idname = "focal.show_votes"
     bl_label = "Vote Map"
     bl_options = {"REGISTER", "UNDO"}
@@ -233,7 +227,16 @@ class FOCAL_OT_show_votes(JobOperator, bpy.types.Operator):
         self._target.remember()
         for number, obj in enumerate(objects):
             own = votes[self._target.character.vertices_of(number)]
-            display.write_colours(obj.data, display.VOTES, "POINT", display.heat_colours(own))
+            self._show(context, obj, self._target.character.surfaces[number], display.heat_colours(own))
+
+    @staticmethod
+    def _show(context, obj, surface, colours):
+        """Drawn over the mesh; in its data, where exporters find it, only when that is asked for."""
+        if not context.scene.focal.keep_votes:
+            vote_map.show(context, obj, surface, colours)
+            return
+        vote_map.hide(obj)
+        display.write_colours(obj.data, display.VOTES, "POINT", colours)
         display.show_colours(context)
 
 

@@ -21,6 +21,10 @@ def refresh(context, obj):
     """After landmarks changed: the empties follow where there are any, the view is drawn again."""
     if empties_of(obj):
         update_empties(context, obj)
+    redraw(context)
+
+
+def redraw(context):
     for area in context.screen.areas if context.screen else ():
         if area.type == "VIEW_3D":
             area.tag_redraw()
@@ -39,11 +43,14 @@ def empty_place(obj, name):
 
 
 def update_empties(context, obj):
+    """One for each landmark that has a place where empties are wanted, else none: stale ones would be exported."""
     present = empties_of(obj)
-    placed = {mark.name: mark for mark in obj.focal.landmarks if mark.placed}
+    wanted = context.scene.focal.empties
+    placed = {mark.name: mark for mark in obj.focal.landmarks if mark.placed and wanted}
     for name in set(present) - set(placed):
         bpy.data.objects.remove(present.pop(name))
-    if not context.scene.focal.empties:
+    if not placed:
+        _remove_collection(obj)
         return
     size = _EMPTY_SHARE * max((Vector(obj.bound_box[6]) - Vector(obj.bound_box[0])).length, 1e-6)
     for name, mark in placed.items():
@@ -63,6 +70,13 @@ def _new_empty(context, obj, name):
     empty.show_in_front = True
     _collection_of(context, obj).objects.link(empty)
     return empty
+
+
+def _remove_collection(obj):
+    """Unless the user keeps something there."""
+    collection = bpy.data.collections.get(f"{obj.name} landmarks")
+    if collection is not None and not collection.all_objects and not collection.children:
+        bpy.data.collections.remove(collection)
 
 
 def _collection_of(context, obj):
@@ -113,6 +127,23 @@ def write_colours(mesh, name, domain, colours):
     attribute.data.foreach_set("color", numpy.ascontiguousarray(colours, dtype=numpy.float32).ravel())
     mesh.color_attributes.active_color = mesh.color_attributes[name]
     mesh.update()
+
+
+def remove_colours(mesh, name):
+    """Whether there was such an attribute."""
+    attribute = mesh.color_attributes.get(name)
+    if attribute is None:
+        return False
+    mesh.color_attributes.remove(attribute)
+    mesh.update()
+    return True
+
+
+def hide_colours(context):
+    """Back to colours of materials where solid views show an attribute's."""
+    for area in context.screen.areas if context.screen else ():
+        if area.type == "VIEW_3D" and area.spaces.active.shading.color_type == "VERTEX":
+            area.spaces.active.shading.color_type = "MATERIAL"
 
 
 def show_colours(context):

@@ -89,13 +89,31 @@ def preferences():
 
 
 def _explained(text):
-    """The package's message is for programmers: name the download and the setting."""
+    """The package's message is for programmers: say what to do in Blender."""
     first = text.split("\n")[0]
+    return f"{first}\n{library_advice(text, _wanted_path(), os.environ.get('FOCAL_LIBRARY'))}"
+
+
+def library_advice(text, chosen, named):
+    """What helps against a message of the package. chosen: the path in the preferences; named: that of FOCAL_LIBRARY."""
+    if chosen:
+        return "The add-on's preferences name this library: correct the path there, or empty it for the one that came with the add-on."
+    if named:
+        return "The environment variable FOCAL_LIBRARY names this library: unset it for the one that came with the add-on."
+    if "GLIBC" in text:
+        return "This system is older than those that the zip is built for (Debian 12, Ubuntu 24.04): update it, or build focal here."
+    if "cannot open shared object file" in text:
+        return "A library that focal needs is missing, or the installation is damaged: install the zip again."
+    if "is focal " in text or "older than this package" in text or "no focal_version" in text:
+        return "Parts of another version are left: remove the add-on, restart Blender, and install the zip again."
+    return f"This zip may be for another system: install focal_addon-{_platform()}.zip."
+
+
+def _platform():
     system = {"Linux": "linux", "Windows": "windows", "Darwin": "macos"}.get(platform.system(), platform.system())
     machine = {"x86_64": "x64", "AMD64": "x64", "aarch64": "arm64", "arm64": "arm64"}.get(
         platform.machine(), platform.machine())
-    return (f"{first}\nThis zip may be for another system. Install focal_addon-{system}-{machine}.zip, "
-            "or set the library's path in the add-on's preferences.")
+    return f"{system}-{machine}"
 
 
 def threads():

@@ -12,6 +12,7 @@ import bpy
 
 from .engine import FAILURES, message_of, package
 from .geometry import Unusable
+from .templates import TemplateError
 
 TIMER_SECONDS = 0.02
 _REDRAW_EVERY = 8  # timer events: drawing the interface costs time that the work could use
@@ -34,6 +35,7 @@ class Job:
         self._from, self._to = 0.0, 0.0
         self._thread = None
         self.stage = ""
+        self.done = False
         self.cancelled = False
         self.result = None
         self.failure = ""
@@ -48,9 +50,18 @@ class Job:
         return task
 
     def progress(self):
+        if self.done:
+            return 1.0
         with self._lock:
             task, start, end = self._task, self._from, self._to
         return start + (end - start) * (task.progress if task is not None else 0.0)
+
+    def step_name(self):
+        """What is being done, and which of the library's stages: 'Detecting on statue: spectrum'."""
+        with self._lock:
+            task, stage = self._task, self.stage
+        detail = task.stage if task is not None and not self.done else ""
+        return stage[:1].upper() + stage[1:] + (f": {detail}" if detail else "")
 
     def cancel(self):
         with self._lock:
@@ -61,9 +72,10 @@ class Job:
     def run(self):
         try:
             self.result = self._work(self)
+            self.done = True
         except Cancelled:
             pass
-        except FAILURES as error:
+        except (Unusable, TemplateError, *FAILURES) as error:
             if not self.cancelled:
                 self.failure = message_of(error)
         except Exception as error:  # a mistake of ours: the console tells where, the user that it happened
@@ -107,6 +119,7 @@ class JobOperator:
 
     _job = None
     _target = None  # what prepare() read for apply()
+    tells = True  # in the status bar, unless another operator below this one does
     _timer = None
     _ticks = 0
 
@@ -154,6 +167,7 @@ class JobOperator:
             self._show_progress(context)
             return {"PASS_THROUGH"}
         job = self._job
+        context.window_manager.progress_update(100 * job.progress())
         self._end(context)
         return self._finish(context, job)
 
@@ -169,6 +183,9 @@ class JobOperator:
             bpy.ops.object.mode_set(mode="OBJECT")
         return Job(self.prepare(context))
 
+    def tell_cancelled(self):
+        self.report({"INFO"}, "Cancelled: nothing was changed")
+
     def refuse(self, message):
         self.report({"ERROR"}, message)
         return {"CANCELLED"}
@@ -178,18 +195,23 @@ class JobOperator:
         context.window_manager.progress_update(100 * self._job.progress())
         if self._ticks % _REDRAW_EVERY == 0:
             redraw_sidebars(context)
+            if self.tells:
+                text = f"{self._job.step_name()}, {100 * self._job.progress():.0f} %      Esc: cancel"
+                context.workspace.status_text_set(text)
 
     def _end(self, context):
         global _current
         _current = None
         context.window_manager.event_timer_remove(self._timer)
         context.window_manager.progress_end()
+        if self.tells:
+            context.workspace.status_text_set(None)
         redraw_sidebars(context)
 
     def _finish(self, context, job):
         try:
             if job.cancelled:
-                self.report({"INFO"}, "Cancelled: nothing was changed")
+                self.tell_cancelled()
                 return {"CANCELLED"}
             if job.failure:
                 return self.refuse(job.failure)

@@ -1,5 +1,5 @@
 """The landmarks of an object: reading and writing the collection that is stored with it."""
-from .geometry import Surface, Unusable
+from .geometry import Surface
 
 # A place further than this share of the mesh's size from where it was put no longer belongs to the mesh as it is.
 _MOVED = 1e-3
@@ -46,18 +46,16 @@ def place(obj, mark, surface, triangle, barycentric, status="MARKED"):
     obj.focal.triangle_count = len(surface.triangles)
 
 
-def place_near(obj, mark, surface, tree, position, status="MARKED"):
+def place_near(obj, mark, surface, position, status="MARKED"):
     """Puts a landmark onto the point of the surface nearest to a local position; its distance from there."""
-    triangle, barycentric, distance = _nearest(surface, tree, position)
+    triangle, barycentric, distance = _nearest(surface, position)
     place(obj, mark, surface, triangle, barycentric, status)
     return distance
 
 
-def _nearest(surface, tree, position):
+def _nearest(surface, position):
     """(triangle, barycentric, distance) of the place of the surface nearest to a local position."""
-    location, _normal, triangle, distance = tree.find_nearest(position)
-    if location is None:
-        raise Unusable(f"'{surface.name}' has no surface near this place")
+    location, triangle, distance = surface.nearest(position)
     return triangle, surface.barycentric(triangle, location), distance
 
 
@@ -78,11 +76,10 @@ def stale(surface, mark):
 
 def snap_stale(obj, surface):
     """Takes landmarks along after the mesh was edited: the nearest place of the new surface. How many moved."""
-    moved, tree = 0, None
+    moved = 0
     for mark in obj.focal.landmarks:
         if mark.placed and stale(surface, mark):
-            tree = tree or surface.tree()
-            place_near(obj, mark, surface, tree, mark.position, mark.status)
+            place_near(obj, mark, surface, mark.position, mark.status)
             moved += 1
     return moved
 
@@ -113,13 +110,12 @@ def surface_with_marks(obj):
 def fixed_places(obj, surface):
     """Landmarks set by hand, as {name: (triangle, barycentric)} in focal's order of corners. Where the mesh was edited
     below one, the nearest place; the landmark itself stays as it is."""
-    fixed, tree = {}, None
+    fixed = {}
     for mark in obj.focal.landmarks:
         if not (mark.placed and mark.by_hand):
             continue
         triangle, barycentric = mark.triangle, mark.barycentric
         if stale(surface, mark):
-            tree = tree or surface.tree()
-            triangle, barycentric, _distance = _nearest(surface, tree, mark.position)
+            triangle, barycentric, _distance = _nearest(surface, mark.position)
         fixed[mark.name] = triangle, surface.turned(barycentric)
     return fixed

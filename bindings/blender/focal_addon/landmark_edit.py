@@ -1,13 +1,9 @@
 """The list of landmarks and what its buttons do."""
-import os
-
 import bpy
-from bpy.props import BoolProperty, StringProperty
-from bpy_extras.io_utils import ExportHelper, ImportHelper
-from mathutils import Vector
+from bpy.props import BoolProperty, EnumProperty, StringProperty
 
-from . import correction, display, landmark_data, landmark_file, names
-from .geometry import FROM_GLTF, TO_GLTF, Surface, Unusable
+from . import correction, display, landmark_data, name_lists, names
+from .geometry import Surface, Unusable
 from .landmark_data import active_of, ensure, place_near
 from .landmark_file import LandmarkFileError
 
@@ -98,7 +94,7 @@ class FOCAL_OT_landmark_cursor(Correction, bpy.types.Operator):
         surface = Surface(obj)
         mark = active_of(obj) or ensure(obj, "point")
         position = obj.matrix_world.inverted() @ context.scene.cursor.location
-        place_near(obj, mark, surface, surface.tree(), position)
+        place_near(obj, mark, surface, position)
         return True
 
 
@@ -109,12 +105,12 @@ class FOCAL_OT_landmark_snap(Correction, bpy.types.Operator):
 
     def change(self, context, obj):
         surface = Surface(obj)
-        tree, moved, by_hand = surface.tree(), landmark_data.snap_stale(obj, surface), 0
+        moved, by_hand = landmark_data.snap_stale(obj, surface), 0
         for mark in obj.focal.landmarks:
             place = display.empty_place(obj, mark.name)
             if place is None or (mark.placed and (place - mark.position).length < 1e-5 * surface.size()):
                 continue
-            place_near(obj, mark, surface, tree, place)
+            place_near(obj, mark, surface, place)
             by_hand += 1
         moved += by_hand
         self.report({"INFO"}, f"{moved} landmark{'' if moved == 1 else 's'} moved")
@@ -135,17 +131,28 @@ class FOCAL_OT_landmark_next(LandmarkOperator, bpy.types.Operator):
 
 
 class FOCAL_OT_landmark_accept(Correction, bpy.types.Operator):
-    """This place is right: keep it as if it was marked by hand"""
+    """This place is right: keep it as if it was marked by hand. Of use where a model found it"""
     bl_idname = "focal.landmark_accept"
     bl_label = "Accept"
 
-    all: BoolProperty(name="All", options={"SKIP_SAVE"}, description="Every landmark that has a place")
+    all: BoolProperty(name="All", options={"SKIP_SAVE"}, description="Every landmark that a model found")
+
+    @classmethod
+    def poll(cls, context):
+        return super().poll(context) and any(map(may_accept, context.active_object.focal.landmarks))
 
     def change(self, context, obj):
-        chosen = [m for m in (obj.focal.landmarks if self.all else [_active(obj)]) if m.placed and m.status != "MARKED"]
+        chosen = [m for m in (obj.focal.landmarks if self.all else [_active(obj)]) if may_accept(m)]
+        if not chosen:
+            raise Unusable("There is nothing to accept: no model found this landmark")
         for mark in chosen:
             mark.status, mark.confidence, mark.expected_error = "MARKED", 1.0, 0.0
-        return bool(chosen)
+        return True
+
+
+def may_accept(mark):
+    """What was set by hand is accepted already, and what has no place cannot be."""
+    return mark.placed and mark.status in {"FOUND", "UNCERTAIN"}
 
 
 class FOCAL_OT_landmark_runner_up(LandmarkOperator, bpy.types.Operator):
@@ -195,77 +202,20 @@ class FOCAL_OT_landmark_copy_names(LandmarkOperator, bpy.types.Operator):
             ensure(obj, name)
 
 
-class FOCAL_OT_landmark_import(LandmarkOperator, bpy.types.Operator, ImportHelper):
-    """Read a landmark file of focal for the active mesh"""
-    bl_idname = "focal.landmark_import"
-    bl_label = "Import Landmarks"
+class FOCAL_OT_landmark_names(LandmarkOperator, bpy.types.Operator):
+    """Add the names of a list to this mesh, to be placed here"""
+    bl_idname = "focal.landmark_names"
+    bl_label = "Add Names of a List"
 
-    filename_ext = ".json"
-    filter_glob: StringProperty(default="*.json", options={"HIDDEN"})
-
-    def change(self, context, obj):
-        marks = landmark_file.read(self.filepath)
-        surface = Surface(obj)
-        tree = surface.tree()
-        to_local = obj.matrix_world.inverted() @ FROM_GLTF
-        worst = 0.0
-        for entry in marks:
-            mark = ensure(obj, entry["name"])
-            if entry.get("status") == "absent":
-                landmark_data.unplace(mark, "ABSENT")
-                continue
-            status = {"found": "FOUND", "uncertain": "UNCERTAIN"}.get(entry.get("status"), "MARKED")
-            position = _local_place(entry, surface, to_local)
-            worst = max(worst, place_near(obj, mark, surface, tree, position, status))
-            mark.confidence = entry.get("confidence", 1.0)
-        if worst > 0.02 * surface.size():
-            self.report({"WARNING"}, f"Some landmarks were {worst:.3g} away from the surface: is it their mesh?")
-        else:
-            self.report({"INFO"}, f"{len(marks)} landmarks")
-
-
-class FOCAL_OT_landmark_export(LandmarkOperator, bpy.types.Operator, ExportHelper):
-    """Write the landmarks of the active mesh to a file that focal reads"""
-    bl_idname = "focal.landmark_export"
-    bl_label = "Export Landmarks"
-    bl_options = {"REGISTER"}
-
-    filename_ext = ".landmarks.json"
-    filter_glob: StringProperty(default="*.json", options={"HIDDEN"})
+    kind: EnumProperty(name="List", items=tuple(
+        (kind, text, f"{len(name_lists.LISTS[kind])} names: {', '.join(name_lists.LISTS[kind][:4])} ...")
+        for kind, text in (("HUMANOID", "Humanoid"), ("QUADRUPED", "Quadruped"), ("HAND", "Hand"), ("FACE_68", "Face, 68 points"))))
 
     def change(self, context, obj):
-        surface = Surface(obj)
-        landmark_data.snap_stale(obj, surface)
-        to_file = TO_GLTF @ obj.matrix_world
-        entries = [_entry_of(mark, surface, to_file) for mark in obj.focal.landmarks if mark.status != "UNPLACED"]
-        if not entries:
-            raise Unusable(f"'{obj.name}' has no landmarks")
-        landmark_file.write(self.filepath, obj.name + ".glb", entries)
-        self.report({"INFO"}, f"{len(entries)} landmarks in {os.path.basename(self.filepath)}")
-
-
-def _local_place(entry, surface, to_local):
-    """Positions come first: numbers of triangles hold only for a mesh whose triangles are in the file's order."""
-    if "position" in entry:
-        return to_local @ Vector(entry["position"])
-    if "triangle" in entry and entry["triangle"] < len(surface.triangles):
-        return surface.at(entry["triangle"], entry["barycentric"])
-    if "vertex" in entry and entry["vertex"] < len(surface.local):
-        return Vector(surface.local[entry["vertex"]])
-    raise Unusable(f"Landmark '{entry['name']}' lies on a triangle or vertex that '{surface.name}' does not have")
-
-
-def _entry_of(mark, surface, to_file):
-    entry = {"name": mark.name}
-    status = {"FOUND": "found", "UNCERTAIN": "uncertain", "ABSENT": "absent"}.get(mark.status)
-    if status:
-        entry["status"] = status
-        entry["confidence"] = round(mark.confidence, 6)
-    if mark.placed:
-        entry["triangle"] = mark.triangle
-        entry["barycentric"] = [round(w, 7) for w in surface.turned(mark.barycentric)]
-        entry["position"] = [round(x, 7) for x in to_file @ Vector(mark.position)]
-    return entry
+        for name in name_lists.LISTS[self.kind]:
+            ensure(obj, name)
+        at = landmark_data.next_unplaced(obj)
+        obj.focal.active = max(at, 0)
 
 
 def _active(obj):
@@ -277,8 +227,7 @@ def _active(obj):
 
 CLASSES = (FOCAL_OT_landmark_add, FOCAL_OT_landmark_remove, FOCAL_OT_landmark_unplace, FOCAL_OT_landmark_cursor,
            FOCAL_OT_landmark_snap, FOCAL_OT_landmark_next, FOCAL_OT_landmark_accept, FOCAL_OT_landmark_runner_up,
-           FOCAL_OT_landmark_mirror_names, FOCAL_OT_landmark_copy_names, FOCAL_OT_landmark_import,
-           FOCAL_OT_landmark_export)
+           FOCAL_OT_landmark_mirror_names, FOCAL_OT_landmark_copy_names, FOCAL_OT_landmark_names)
 
 
 register, unregister = bpy.utils.register_classes_factory(CLASSES)

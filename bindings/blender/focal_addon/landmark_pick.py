@@ -5,14 +5,15 @@ from bpy_extras.view3d_utils import region_2d_to_origin_3d, region_2d_to_vector_
 from . import correction, display, landmark_data, names
 from .geometry import Surface, Unusable
 from .landmark_data import active_of
+from .view_events import is_for_view, view_region
 
-_LOOKING = {"MIDDLEMOUSE", "WHEELUPMOUSE", "WHEELDOWNMOUSE", "TRACKPADPAN", "TRACKPADZOOM", "NDOF_MOTION", "MOUSEMOVE",
-            "INBETWEEN_MOUSEMOVE"}
 _END = {"ESC", "RIGHTMOUSE", "RET", "NUMPAD_ENTER"}
+
+_running = False  # one at a time: a second one would take the first one's clicks
 
 
 class FOCAL_OT_landmark_pick(bpy.types.Operator):
-    """Click on the mesh to place the active landmark and go on to the next one without a place.
+    """Click on the mesh to place the active landmark and go on to the next one without a place. The view is turned as ever.
 Backspace takes the last one back, Tab passes over, Esc or the right button ends"""
     bl_idname = "focal.landmark_pick"
     bl_label = "Place by Clicking"
@@ -20,10 +21,14 @@ Backspace takes the last one back, Tab passes over, Esc or the right button ends
 
     @classmethod
     def poll(cls, context):
+        if _running:
+            cls.poll_message_set("Clicks are being placed already: Esc ends it")
+            return False
         return (context.active_object is not None and context.active_object.type == "MESH"
                 and context.active_object.mode == "OBJECT")
 
     def invoke(self, context, event):
+        global _running
         if context.area is None or context.area.type != "VIEW_3D":
             self.report({"ERROR"}, "Start it from the 3D view")
             return {"CANCELLED"}
@@ -32,31 +37,40 @@ Backspace takes the last one back, Tab passes over, Esc or the right button ends
         except Unusable as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        self._tree = self._surface.tree()
         self._object = context.active_object.name
         self._past = []  # (number, what it was) of each placed one
+        self._passed = set()  # names that Tab passed over
         self._unsaved = False  # whether something is left for this operator's own step of undo
         self._only_add = not len(context.active_object.focal.landmarks)
         context.window.cursor_modal_set("CROSSHAIR")
         context.window_manager.modal_handler_add(self)
+        _running = True
         self._tell(context)
         return {"RUNNING_MODAL"}
 
     def modal(self, context, event):
-        if context.active_object is None or context.active_object.name != self._object:
+        try:
+            return self._handle(context, event)
+        except Exception:
+            self._end(context)  # else no second one could ever start
+            raise
+
+    def _handle(self, context, event):
+        obj = context.active_object
+        if obj is None or obj.name != self._object or obj.mode != "OBJECT":
             return self._end(context)
         if event.type in _END and event.value == "PRESS":
             return self._end(context)
-        region = _view_below(context, event)
-        if event.type in _LOOKING or region is None:
+        region = view_region(context.area, event.mouse_x, event.mouse_y)
+        if region is None or is_for_view(context, event):
             return {"PASS_THROUGH"}
         if event.value == "PRESS":
             if event.type == "LEFTMOUSE":
                 self._click(context, event, region)
             elif event.type in {"BACK_SPACE", "Z"}:
                 self._take_back(context)
-            elif event.type == "TAB":
-                self._go_on(context.active_object)
+            elif event.type == "TAB" and not event.ctrl:
+                self._pass_over(obj)
             self._tell(context)
         return {"RUNNING_MODAL"}
 
@@ -70,9 +84,10 @@ Backspace takes the last one back, Tab passes over, Esc or the right button ends
         to_local = obj.matrix_world.inverted()
         origin = to_local @ region_2d_to_origin_3d(region, view, coordinates)
         direction = to_local.to_3x3() @ region_2d_to_vector_3d(region, view, coordinates)
-        location, _normal, triangle, _distance = self._tree.ray_cast(origin, direction.normalized())
-        if location is None:
+        hit = self._surface.cast(origin, direction.normalized())
+        if hit is None:
             return
+        location, triangle = hit
         mark = self._next_mark(obj)
         self._past.append((obj.focal.active, _state_of(mark)))
         landmark_data.place(obj, mark, self._surface, triangle, self._surface.barycentric(triangle, location))
@@ -83,7 +98,7 @@ Backspace takes the last one back, Tab passes over, Esc or the right button ends
         """Other landmarks of a detected mesh follow, which is a step of undo with the click in it."""
         display.refresh(context, obj)
         try:
-            self._unsaved = not correction.follow(context, obj, True)
+            self._unsaved = not correction.follow(context, obj, True, with_step=True)
         except RuntimeError as error:  # with which an operator refuses
             self._unsaved = True
             self.report({"WARNING"}, str(error))
@@ -98,15 +113,30 @@ Backspace takes the last one back, Tab passes over, Esc or the right button ends
         return mark
 
     def _go_on(self, obj):
-        """Pairs are marked together: after elbow.L comes elbow.R where that has no place yet."""
-        mark = active_of(obj)
-        partner = landmark_data.index_of(obj, names.mirrored(mark.name) or "") if mark is not None else -1
-        if partner >= 0 and obj.focal.landmarks[partner].status == "UNPLACED":
-            obj.focal.active = partner
-            return
-        at = landmark_data.next_unplaced(obj, obj.focal.active)
+        at = self._next(obj)
+        if at < 0 and self._passed:
+            self._passed.clear()  # all that is left was passed over: once more
+            at = self._next(obj)
         if at >= 0:
             obj.focal.active = at
+
+    def _pass_over(self, obj):
+        """Tab leads on and never back to what was passed over in this round, such as the other side of a pair."""
+        mark = active_of(obj)
+        if mark is not None:
+            self._passed.add(mark.name)
+            self._go_on(obj)
+
+    def _next(self, obj):
+        """Pairs are marked together: after elbow.L comes elbow.R where that has no place yet."""
+        mark, count = active_of(obj), len(obj.focal.landmarks)
+        partner = landmark_data.index_of(obj, names.mirrored(mark.name) or "") if mark is not None else -1
+        numbers = [partner] if partner >= 0 else []
+        numbers += [(obj.focal.active + step) % count for step in range(1, count + 1)]
+        return next((at for at in numbers if self._waits(obj.focal.landmarks[at])), -1)
+
+    def _waits(self, mark):
+        return mark.status == "UNPLACED" and mark.name not in self._passed
 
     def _take_back(self, context):
         if not self._past:
@@ -128,6 +158,8 @@ Backspace takes the last one back, Tab passes over, Esc or the right button ends
             context.area.header_text_set(f"Click on the mesh: {what}")
 
     def _end(self, context):
+        global _running
+        _running = False
         context.window.cursor_modal_restore()
         context.workspace.status_text_set(None)
         for area in context.screen.areas:
@@ -136,19 +168,11 @@ Backspace takes the last one back, Tab passes over, Esc or the right button ends
         return {"FINISHED"} if self._past and self._unsaved else {"CANCELLED"}
 
 
-def _view_below(context, event):
-    """The region of the 3D view that the mouse is over, None over panels and other editors."""
-    if context.area is None or context.area.type != "VIEW_3D":
-        return None
-    found = None
-    for region in context.area.regions:
-        inside = (region.x <= event.mouse_x < region.x + region.width
-                  and region.y <= event.mouse_y < region.y + region.height and region.width > 1)
-        if inside and region.type != "WINDOW":
-            return None  # panels lie over the view
-        if inside:
-            found = region
-    return found
+@bpy.app.handlers.persistent
+def _forget(*_):
+    """Another file ends whatever ran."""
+    global _running
+    _running = False
 
 
 _FIELDS = ("triangle", "status", "confidence", "expected_error", "told_absent")
@@ -166,7 +190,9 @@ def _restore(mark, state):
 
 def register():
     bpy.utils.register_class(FOCAL_OT_landmark_pick)
+    bpy.app.handlers.load_post.append(_forget)
 
 
 def unregister():
+    bpy.app.handlers.load_post.remove(_forget)
     bpy.utils.unregister_class(FOCAL_OT_landmark_pick)

@@ -1,16 +1,19 @@
 """The sidebar: press N in the 3D view, tab "focal"."""
 import bpy
 
-from . import engine, jobs, landmark_data, names
-from .geometry import armature_of, problem_of
+from . import engine, jobs, landmark_data, names, rigify
+from .geometry import armature_of, problem_of, remembered_character
 from .landmark_data import active_of
+from .landmark_edit import may_accept
 from .preferences import draw_problem, wrapped
 from .properties import STATUS_ICON, STATUS_NAME
 
 
 class FOCAL_UL_landmarks(bpy.types.UIList):
-    def draw_item(self, _context, layout, _data, item, _icon, _active_data, _active_property, _index):
+    def draw_item(self, context, layout, _data, item, _icon, _active_data, _active_property, _index):
         row = layout.row(align=True)
+        if context.scene.focal.choose:
+            row.prop(item, "chosen", text="")
         row.prop(item, "name", text="", emboss=False, icon=STATUS_ICON[item.status])
         right = row.row()
         right.alignment = "RIGHT"
@@ -35,9 +38,10 @@ class FOCAL_UL_training(bpy.types.UIList):
             icon, text = "ARMATURE_DATA", f"{len(armature.data.bones)} bones" if armature is not None else "no rig"
             good = armature is not None
         else:
-            placed, total, _ = landmark_data.counts(obj)
+            placed, total, _ = (sum(numbers) for numbers in zip(*map(landmark_data.counts, remembered_character(obj))))
             icon, text, good = "MESH_DATA", f"{placed}/{total}" if total else "no marks", placed > 0
-        row.label(text=obj.name, icon=icon if good else "ERROR")
+        others = len(remembered_character(obj)) - 1
+        row.label(text=obj.name + (f" and {others} more" if others else ""), icon=icon if good else "ERROR")
         right = row.row()
         right.alignment = "RIGHT"
         right.alert = not good
@@ -54,6 +58,13 @@ class FOCAL_UL_errors(bpy.types.UIList):
         right.label(text=f"{item.share:.1f} %")
 
 
+class FOCAL_MT_names(bpy.types.Menu):
+    bl_label = "Names of a List"
+
+    def draw(self, _context):
+        self.layout.operator_enum("focal.landmark_names", "kind")
+
+
 class FOCAL_MT_landmarks(bpy.types.Menu):
     bl_label = "Landmark Tools"
 
@@ -61,6 +72,7 @@ class FOCAL_MT_landmarks(bpy.types.Menu):
         layout = self.layout
         layout.operator("focal.landmark_copy_names", icon="COPYDOWN")
         layout.operator("focal.landmark_mirror_names", icon="MOD_MIRROR")
+        layout.menu("FOCAL_MT_names", icon="PRESET")
         layout.separator()
         layout.operator("focal.landmark_accept", text="Accept All", icon="CHECKMARK").all = True
         layout.operator("focal.landmark_snap", icon="SNAP_ON")
@@ -126,7 +138,7 @@ def settings_column(layout):
 
 def draw_progress(layout, context, job):
     box = layout.box()
-    box.label(text=job.stage[:1].upper() + job.stage[1:], icon="TIME")
+    box.label(text=job.step_name(), icon="TIME")
     if hasattr(box, "progress"):  # Blender 4
         box.progress(factor=job.progress(), text=f"{100 * job.progress():.0f} %")
     else:
@@ -158,12 +170,13 @@ class FOCAL_PT_landmarks(SidebarPanel, bpy.types.Panel):
         row.operator("focal.landmark_pick", icon="RESTRICT_SELECT_OFF")
         row.operator("focal.landmark_cursor", text="", icon="PIVOT_CURSOR")
         row.operator("focal.landmark_next", text="", icon="TRIA_RIGHT_BAR")
-        self._draw_active(layout, obj)
+        self._draw_active(context, layout, obj)
 
-    def _draw_active(self, layout, obj):
+    def _draw_active(self, context, layout, obj):
         mark = active_of(obj)
         if mark is None:
             layout.label(text="Add names, or click on the mesh", icon="INFO")
+            layout.menu("FOCAL_MT_names", icon="PRESET")
             return
         placed, total, unsure = landmark_data.counts(obj)
         layout.label(text=f"{placed} of {total} placed" + (f", {unsure} uncertain" if unsure else ""))
@@ -177,14 +190,22 @@ class FOCAL_PT_landmarks(SidebarPanel, bpy.types.Panel):
         if other and landmark_data.index_of(obj, other) < 0:
             box.label(text=f"Other side missing: {other}", icon="MOD_MIRROR")
         if mark.status in {"FOUND", "UNCERTAIN"}:
-            box.label(text=f"{100 * mark.confidence:.0f} % sure, about {mark.expected_error:.2g} off")
+            box.label(text=f"{100 * mark.confidence:.0f} % sure, about {length_text(context, mark.expected_error)} off")
         column = box.column(align=True)
         row = column.row(align=True)
-        row.operator("focal.landmark_accept")
+        accept = row.row(align=True)
+        accept.enabled = may_accept(mark)
+        accept.operator("focal.landmark_accept")
         row.operator("focal.landmark_runner_up")
         row = column.row(align=True)
         row.operator("focal.landmark_unplace", text="Clear")
         row.operator("focal.landmark_unplace", text="Absent").absent = True
+
+
+def length_text(context, value):
+    """In the scene's units."""
+    units = context.scene.unit_settings
+    return bpy.utils.units.to_string(units.system, "LENGTH", value * units.scale_length, precision=3)
 
 
 class FOCAL_PT_training(SidebarPanel, bpy.types.Panel):
@@ -198,6 +219,7 @@ class FOCAL_PT_training(SidebarPanel, bpy.types.Panel):
         row.template_list("FOCAL_UL_training", "", settings, "training", settings, "training_active", rows=4)
         side = row.column(align=True)
         side.operator("focal.training_add", text="", icon="ADD")
+        side.operator("focal.training_add", text="", icon="LINKED").together = True
         side.operator("focal.training_remove", text="", icon="REMOVE")
         settings_column(layout).row().prop(settings, "quality", expand=True)
         row = layout.row(align=True)
@@ -223,7 +245,10 @@ class FOCAL_PT_detection(SidebarPanel, bpy.types.Panel):
         row.operator("focal.detect", icon="VIEWZOOM")
         if problem_of(obj) or not obj.focal.model:
             return
-        layout.operator("focal.show_votes", icon="BRUSH_DATA")
+        row = layout.row(align=True)
+        row.operator("focal.show_votes", icon="BRUSH_DATA")
+        row.operator("focal.hide_votes", text="", icon="X")
+        layout.prop(settings, "keep_votes", text="Keep as colour attribute")
         row = layout.row()
         row.alert = obj.focal.category_fit < 0.2
         row.label(text=f"Fits the model's kind: {100 * obj.focal.category_fit:.0f} %")
@@ -254,6 +279,8 @@ class FOCAL_PT_rig(SidebarPanel, bpy.types.Panel):
         row.scale_y = 1.3
         row.operator("focal.rig", icon="ARMATURE_DATA")
         row.operator("focal.bind", icon="MOD_VERTEX_WEIGHT")
+        if rigify.metarig_of(obj) is not None:
+            layout.operator("focal.rigify_bind", icon="OUTLINER_OB_ARMATURE")
 
 
 class FOCAL_PT_segmentation(SidebarPanel, bpy.types.Panel):
@@ -277,6 +304,7 @@ class FOCAL_PT_batch(SidebarPanel, bpy.types.Panel):
         layout, settings = self.layout, context.scene.focal
         column = settings_column(layout)
         column.prop(settings, "batch")
+        column.prop(settings, "batch_together")
         column.prop(settings, "batch_rig")
         layout.operator("focal.batch", icon="OUTLINER_COLLECTION")
         for paragraph in settings.report.split("\n")[:6] if settings.report else ():
@@ -284,7 +312,8 @@ class FOCAL_PT_batch(SidebarPanel, bpy.types.Panel):
                 layout.label(text=line, icon="BLANK1" if number else "ERROR")
 
 
-CLASSES = (FOCAL_UL_landmarks, FOCAL_UL_training, FOCAL_UL_errors, FOCAL_OT_use_model, FOCAL_MT_models, FOCAL_MT_landmarks, FOCAL_PT_main,
+CLASSES = (FOCAL_UL_landmarks, FOCAL_UL_training, FOCAL_UL_errors, FOCAL_OT_use_model, FOCAL_MT_models, FOCAL_MT_names,
+           FOCAL_MT_landmarks, FOCAL_PT_main,
            FOCAL_PT_landmarks, FOCAL_PT_training, FOCAL_PT_detection, FOCAL_PT_rig, FOCAL_PT_segmentation,
            FOCAL_PT_batch)
 

@@ -3,6 +3,8 @@ import bpy
 from bpy.props import (BoolProperty, CollectionProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty,
                        PointerProperty, StringProperty)
 
+from . import display
+
 STATUS = (
     ("UNPLACED", "Not placed", "Not marked on this mesh", "RADIOBUT_OFF", 0),
     ("MARKED", "Marked", "Set or accepted by hand", "PINNED", 1),
@@ -34,18 +36,27 @@ def redraw_views(_self, context):
             area.tag_redraw()
 
 
+def update_empties(settings, context):
+    for obj in settings.id_data.objects:
+        if obj.type == "MESH" and (obj.focal.landmarks or display.empties_of(obj)):
+            display.update_empties(context, obj)
+
+
 class FocalLandmark(bpy.types.PropertyGroup):
     name: StringProperty(name="Name", description="Of the landmark; .L and .R, or Left and Right, tell sides apart")
     status: EnumProperty(name="Status", items=STATUS)
     triangle: IntProperty(name="Triangle", default=-1, description="Number among the mesh's triangles")
     barycentric: FloatVectorProperty(name="Barycentric", size=3, description="Weights of the triangle's corners")
-    position: FloatVectorProperty(name="Position", size=3, subtype="XYZ", description="In the object's coordinates",
+    position: FloatVectorProperty(name="Position", size=3, subtype="XYZ", description="In the object's own coordinates and its unit of length",
                                   precision=4)
-    confidence: FloatProperty(name="Confidence", min=0, max=1, subtype="FACTOR")
-    expected_error: FloatProperty(name="Expected error", subtype="DISTANCE")
+    confidence: FloatProperty(name="Confidence", min=0, max=1, subtype="FACTOR",
+                              description="Chance that the place is right, from 0 to 1")
+    expected_error: FloatProperty(name="Expected error", subtype="DISTANCE",
+                                  description="How far off the place may be, in the scene's unit of length")
     runner_up_confidence: FloatProperty(name="Second-best confidence", min=0, max=1)
     runner_up_triangle: IntProperty(default=-1)
     runner_up_barycentric: FloatVectorProperty(size=3)
+    chosen: BoolProperty(name="Choose", description="For a joint: Joint from Landmarks takes those that are ticked")
     told_absent: BoolProperty(description="Absent by hand: no model looks for it")
 
     @property
@@ -67,16 +78,35 @@ class FocalObject(bpy.types.PropertyGroup):
     landmarks: CollectionProperty(type=FocalLandmark)
     active: IntProperty(name="Active landmark", update=redraw_views)
     model: StringProperty(name="Model", description="File of the model that found the landmarks")
-    category_fit: FloatProperty(name="Fits the category", min=0, max=1, subtype="FACTOR")
+    category_fit: FloatProperty(name="Fits the category", min=0, max=1, subtype="FACTOR",
+                                description="How well the mesh fits what the model knows, from 0 to 1; below 0.2 it is hardly of the kind")
     triangle_count: IntProperty(description="Of the mesh when the landmarks were placed: other meshes need a snap")
 
 
 class FocalLandmarkError(bpy.types.PropertyGroup):
     name: StringProperty()
-    mean: FloatProperty(name="Mean error", subtype="DISTANCE")
+    mean: FloatProperty(name="Mean error", subtype="DISTANCE", description="In the scene's unit of length")
     share: FloatProperty(name="Error", description="In per cent of the square root of the surface's area",
                          subtype="PERCENTAGE", precision=2)
     count: IntProperty(name="Meshes it was measured on")
+
+
+class FocalName(bpy.types.PropertyGroup):
+    name: StringProperty()
+
+
+class FocalJoint(bpy.types.PropertyGroup):
+    """A joint of a skeleton template, see docs/rigs.md."""
+    name: StringProperty(name="Name", description="Of the bone; .L and .R, or left and right, tell sides apart")
+    parent: StringProperty(name="Parent", description="The joint that it hangs on; empty: a root")
+    kind: EnumProperty(name="Lies", items=(
+        ("CENTRE", "Inside", "In the middle of the limb under its landmarks, at the mean of these places"),
+        ("SURFACE", "Middle", "In the middle of its landmarks"),
+        ("BETWEEN", "Between", "On the line between two landmarks or joints")))
+    places: CollectionProperty(type=FocalName, description="Landmarks, or joints where it lies between two")
+    share: FloatProperty(name="Share", min=0, max=1, default=0.5, subtype="FACTOR",
+                         description="How far it lies on the way from the first place to the second, from 0 to 1")
+    tip: StringProperty(name="Tip", description="The landmark where its bone ends; empty: the bone goes on to the skin")
 
 
 class FocalScene(bpy.types.PropertyGroup):
@@ -92,7 +122,7 @@ class FocalScene(bpy.types.PropertyGroup):
                                description="The name of a stock model, or a file (.focal) that training writes and detection "
                                            "reads")
     search: EnumProperty(name="Search", items=(
-        ("BEST", "Best", "With the slower refinements"), ("INTERACTIVE", "Quick", "About half the time")))
+        ("BEST", "Best", "With the slower refinements: a second or two for a mesh"), ("INTERACTIVE", "Quick", "About half the time")))
     resolve: BoolProperty(
         name="Re-solve after each correction", default=True,
         description="When a landmark of a detected mesh is set or accepted by hand, look for the others again")
@@ -102,8 +132,11 @@ class FocalScene(bpy.types.PropertyGroup):
                           description="Draw the landmarks of the active mesh in colours of their confidence")
     overlay_names: BoolProperty(name="Names", default=True, update=redraw_views,
                                 description="Write each landmark's name beside it")
-    empties: BoolProperty(name="Empties", default=True,
-                          description="Also make an empty at each landmark: for constraints and for export")
+    empties: BoolProperty(name="Empties", update=update_empties,
+                          description="Also make an empty at each landmark, a child of the mesh: for constraints and for export. "
+                                      "Without the tick there are none")
+    keep_votes: BoolProperty(name="Keep vote map",
+                             description="Vote maps become a colour attribute, for materials and export; else they are only drawn")
     bone_names: EnumProperty(name="Names", items=BONE_NAMES, description="Names of the bones")
     ground_root: BoolProperty(name="Root on the ground",
                               description="One more bone on the ground, above all others, as engines expect it")
@@ -113,6 +146,10 @@ class FocalScene(bpy.types.PropertyGroup):
     template_path: StringProperty(name="Skeleton", subtype="FILE_PATH",
                                   description="A skeleton of your own over the model's landmarks, as a JSON file; empty: "
                                               "that of the characters that taught the model")
+    joints: CollectionProperty(type=FocalJoint, description="A skeleton for models of marks; empty: the template that suits their "
+                                                            "landmarks")
+    joint_active: IntProperty(name="Active joint")
+    choose: BoolProperty(name="Choose Landmarks", description="Tick landmarks in the list, to make joints of them")
     replace_rig: BoolProperty(name="Replace", description="Take the old armature's modifier and weights off first")
     segmentation: EnumProperty(name="Parts", items=(
         ("AUTO", "Automatic", "By the skeleton where the model has one, else by the nearest landmark"),
@@ -122,11 +159,13 @@ class FocalScene(bpy.types.PropertyGroup):
     parts_as_groups: BoolProperty(name="Vertex groups", default=True, description="One vertex group for each part")
     parts_as_colours: BoolProperty(name="Colours", default=True, description="Parts as a colour attribute")
     batch: PointerProperty(type=bpy.types.Collection, name="Collection", description="Every mesh of it is worked on")
+    batch_together: BoolProperty(name="One character", description="The meshes of the collection are the parts of one character: "
+                                                                   "one armature; else each is worked on by itself")
     batch_rig: BoolProperty(name="Rig too", description="Also give each mesh its armature and weights")
     report: StringProperty(description="What the last run over a collection left out, and why")
 
 
-CLASSES = (FocalLandmark, FocalTrainingMesh, FocalObject, FocalLandmarkError, FocalScene)
+CLASSES = (FocalLandmark, FocalTrainingMesh, FocalObject, FocalLandmarkError, FocalName, FocalJoint, FocalScene)
 
 
 def register():

@@ -5,8 +5,9 @@ import bpy
 import numpy
 from mathutils import Quaternion, Vector
 
-from .detection import Target, remember_character, write_landmarks
-from .geometry import FROM_GLTF, Unusable, armature_of, character_of, hints_of
+from . import rigify, template_edit, templates
+from .detection import Target, write_landmarks
+from .geometry import FROM_GLTF, Unusable, armature_of, character_of, hints_of, remember_character
 from .gltf import Selection
 from .jobs import JobOperator
 
@@ -27,15 +28,22 @@ class RigTarget(Target):
             _check_riggable(obj, settings)
         self.options = {"names": settings.bone_names.lower(), "symmetric": settings.symmetric,
                         "ground_root": settings.ground_root, "skeleton_template": _template(settings)}
+        self._own = template_edit.as_template(settings)
 
     def rig(self, job, start=0.0, end=1.0):
         """(detection, joints, joint numbers, weights, warnings); runs in the thread."""
         middle = start if self.ready else start + 0.5 * (end - start)
         detection = self.detect(job, start, middle)
         task = job.begin(f"rigging {self.surface.name}", middle, end)
-        skeleton = detection.rig(task=task, **self.options)
+        skeleton = detection.rig(task=task, **{**self.options, "skeleton_template": self._skeleton(detection)})
         numbers, weights = skeleton.weights
         return detection, skeleton.joints, numbers, weights, skeleton.warnings
+
+    def _skeleton(self, detection):
+        """For a model of marks, which has none: the user's joints, else the template whose landmarks it finds."""
+        if self.options["skeleton_template"] is not None or detection.joint_names:
+            return self.options["skeleton_template"]
+        return templates.text_for([found.name for found in detection], self._own)
 
 
 def _check_riggable(obj, settings):
@@ -49,6 +57,7 @@ def _check_riggable(obj, settings):
 
 
 def _template(settings):
+    """The text of the file that the settings name, or None."""
     if not settings.template_path:
         return None
     path = bpy.path.abspath(settings.template_path)
@@ -84,8 +93,7 @@ def write_rig(context, objects, target, result):
     if context.scene.focal.rig_landmarks or not detection.joint_names:  # a model of rigs has landmarks of its own, which say little
         write_landmarks(context, objects, target, detection)
     else:
-        for obj in objects:
-            remember_character(obj, objects)
+        remember_character(objects)
     old = {armature_of(obj) for obj in objects} - {None}
     for obj in objects:
         _remove_old_rig(obj)
@@ -96,6 +104,8 @@ def write_rig(context, objects, target, result):
         _attach(context, obj, armature)
     for one in old:
         _remove_unused(one)
+    if context.scene.focal.bone_names == "RIGIFY_METARIG" and rigify.is_metarig(armature):
+        rigify.prepare(context, armature)
     return armature
 
 

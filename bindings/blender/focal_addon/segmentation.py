@@ -2,7 +2,7 @@
 import bpy
 import numpy
 
-from . import display
+from . import display, vote_map
 from .detection import Target, model_of
 from .geometry import character_of
 from .jobs import JobOperator
@@ -34,7 +34,7 @@ class FOCAL_OT_segment(JobOperator, bpy.types.Operator):
         labels, names = result
         for number, obj in enumerate(objects):
             own = labels[character.triangles_of(number)]
-            _write(context, obj, _of_faces(obj.data, character.surfaces[number].polygons, own), names)
+            _write(context, obj, _of_faces(obj.data, own), names)
         self.report({"INFO"}, f"{len(numpy.unique(labels[labels >= 0]))} parts")
 
 
@@ -46,11 +46,14 @@ def _write(context, obj, faces, names):
     if settings.parts_as_colours:
         corners = numpy.repeat(faces, _corner_counts(obj.data))
         display.write_colours(obj.data, display.PARTS, "CORNER", display.part_colours(corners))
+        vote_map.hide(obj)
         display.show_colours(context)
 
 
-def _of_faces(mesh, polygons, labels):
+def _of_faces(mesh, labels):
     """Labels of triangles to their polygons; the last triangle of each decides."""
+    polygons = numpy.empty(len(labels), dtype=numpy.int32)
+    mesh.loop_triangles.foreach_get("polygon_index", polygons)
     faces = numpy.full(len(mesh.polygons), -1, dtype=numpy.int32)
     faces[polygons] = labels
     return faces

@@ -4,32 +4,63 @@ import tempfile
 
 import bpy
 import numpy
+from bpy.props import BoolProperty
 
 from . import engine, gltf, landmark_data
-from .geometry import Unusable, armature_of, problem_of, selected_meshes
+from .geometry import Character, Unusable, armature_of, problem_of, remember_character, remembered_character, selected_meshes
 from .jobs import JobOperator
-from .properties import TRAINED_MODEL
+from .model_files import model_path, path_to_train
 
 _DRAFT = {"proxy_vertices": 1500, "tree_count": 10, "learn_confidence": False}
 _MOST_FOLDS = 10
 
 
 class FOCAL_OT_training_add(bpy.types.Operator):
-    """Add the selected meshes to the training list"""
+    """Add the selected meshes to the training list. Those that make one character together, such as body, clothes and eyes with marks
+of their own, get one row"""
     bl_idname = "focal.training_add"
     bl_label = "Add Selected"
     bl_options = {"REGISTER", "UNDO"}
 
+    together: BoolProperty(name="As one character", options={"SKIP_SAVE"},
+                           description="The selected meshes are the parts of one character: one row, one set of marks")
+
+    @classmethod
+    def description(cls, _context, properties):
+        return cls.__doc__ if not properties.together else "Add the selected meshes as the parts of one character: one row, one set of marks"
+
     def execute(self, context):
         items = context.scene.focal.training
-        known = {item.object for item in items}
-        new = [o for o in selected_meshes(context) if o not in known]
+        chosen = selected_meshes(context)
+        if self.together or _make_one(chosen):
+            remember_character(chosen)
+            for at in reversed([i for i, item in enumerate(items) if item.object in chosen]):
+                items.remove(at)
+        known = {part for item in items if item.object is not None for part in remembered_character(item.object)}
+        new = [group[0] for group in characters(chosen) if not known.intersection(group)]
         if not new:
             self.report({"WARNING"}, "Select meshes that are not in the list yet")
             return {"CANCELLED"}
         for obj in new:
             items.add().object = obj
         return {"FINISHED"}
+
+
+def _make_one(objects):
+    """Whether meshes have their marks in common: some are marked, and no landmark is on two of them. Characters of a training list
+    have the same landmarks."""
+    names = [mark.name for obj in objects for mark in obj.focal.landmarks if mark.placed]
+    return len(objects) > 1 and len(names) > 0 and len(names) == len(set(names))
+
+
+def characters(objects):
+    """Each as a list of its objects, in the order of the first of each."""
+    groups, seen = [], set()
+    for obj in objects:
+        if obj not in seen:
+            groups.append([part for part in remembered_character(obj) if part not in seen])
+            seen.update(groups[-1])
+    return groups
 
 
 class FOCAL_OT_training_remove(bpy.types.Operator):
@@ -46,12 +77,20 @@ class FOCAL_OT_training_remove(bpy.types.Operator):
 
 
 class TrainingMesh:
-    """One marked mesh, as arrays: the scene may change while these are learned."""
+    """One marked character, as arrays: the scene may change while these are learned."""
 
-    def __init__(self, obj):
-        surface, self.marks = landmark_data.surface_with_marks(obj)
-        self.name = obj.name
-        self.positions, self.faces = surface.positions(), surface.faces()
+    def __init__(self, objects):
+        found = [landmark_data.surface_with_marks(obj) for obj in objects]
+        character = Character([surface for surface, _marks in found])
+        self.name, self.marks = objects[0].name, {}
+        for first, (surface, marks) in zip(character.first_triangle, found):
+            for name, (triangle, barycentric) in marks.items():
+                if name in self.marks:
+                    raise Unusable(f"'{name}' is marked on '{surface.name}' and on another object of the same character")
+                self.marks[name] = first + triangle, barycentric
+        self.parts = character.parts()
+        self.positions = numpy.concatenate([positions for positions, _faces in self.parts])
+        self.faces = numpy.concatenate([faces + first for (_positions, faces), first in zip(self.parts, character.first_vertex)])
 
     def place(self, name):
         triangle, barycentric = self.marks[name]
@@ -60,7 +99,8 @@ class TrainingMesh:
 
 def training_objects(context):
     """What of the list is still in the file; Unusable when that is nothing."""
-    objects = [item.object for item in context.scene.focal.training if item.object is not None]
+    listed = [item.object for item in context.scene.focal.training if item.object is not None]
+    objects = [part for group in characters(listed) for part in group]
     for obj in objects:
         if problem_of(obj):
             raise Unusable(problem_of(obj))
@@ -71,7 +111,7 @@ def training_objects(context):
 
 def marked_meshes(context):
     """(meshes, landmark names in the order of first appearance)"""
-    meshes = [TrainingMesh(obj) for obj in training_objects(context)]
+    meshes = [TrainingMesh(group) for group in characters(training_objects(context))]
     unmarked = [m.name for m in meshes if not m.marks]
     if unmarked:
         raise Unusable(f"Without landmarks: {', '.join(unmarked)}. Mark them or take them off the list")
@@ -92,43 +132,8 @@ def learn(meshes, names, options, run_context, task):
     training = focal.TrainingSet(names, context=run_context)
     for mesh in meshes:
         known = {name: place for name, place in mesh.marks.items() if name in names}
-        training.add(focal.Mesh(mesh.positions, mesh.faces, context=run_context), known)
+        training.add(focal.Mesh.from_parts(mesh.parts, context=run_context), known)
     return focal.Model.train(training, task=task, **options)
-
-
-def model_path(context, must_exist=False):
-    """The model's file as the settings say, absolute."""
-    raw = context.scene.focal.model_path
-    if not raw:
-        raise Unusable(f"Name a model file first. {engine.stock_hint()}")
-    if is_stock_name(raw):
-        return _stock_path(raw)
-    if raw.startswith("//") and not bpy.data.filepath:
-        path = os.path.join(bpy.app.tempdir, raw[2:])  # nothing is saved yet: gone when Blender ends
-    else:
-        path = bpy.path.abspath(raw)
-    if must_exist and not os.path.isfile(path):
-        raise Unusable(f"There is no model '{path}': train one, or choose another file. {engine.stock_hint()}")
-    return path
-
-
-def is_stock_name(raw):
-    """A plain word: files have a folder or a suffix."""
-    return raw != "" and not any(sign in raw for sign in "/\\.")
-
-
-def _stock_path(name):
-    path = engine.stock_models().get(name)
-    if path is None:
-        raise Unusable(f"There is no stock model '{name}'. {engine.stock_hint()}")
-    return str(path)
-
-
-def path_to_train(context):
-    """The file that training writes; a stock model is never written over."""
-    if is_stock_name(context.scene.focal.model_path):
-        context.scene.focal.model_path = TRAINED_MODEL
-    return model_path(context)
 
 
 class FOCAL_OT_train(JobOperator, bpy.types.Operator):
@@ -233,7 +238,7 @@ def cross_validate(meshes, names, options, run_context, job):
 
 
 def _measure(model, mesh, run_context, task, errors):
-    shape = engine.package().Mesh(mesh.positions, mesh.faces, context=run_context)
+    shape = engine.package().Mesh.from_parts(mesh.parts, context=run_context)
     detection = model.detect(shape, keep_votes=False, task=task)
     for mark in detection:
         if mark.name in mesh.marks and mark.point is not None:
