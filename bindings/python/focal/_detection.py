@@ -225,29 +225,32 @@ class Detection(Handle):
 
     def rig(self, *, names: _abi.BoneNames | str | None = None,
             joint_names: Sequence[str | None] | Mapping[str, str] | None = None, animations: Mesh | None = None,
-            rest_pose: bool | None = None, symmetric: bool | None = None, max_influences: int | None = None,
+            rest_pose: bool | _abi.Pose | str | None = None, symmetric: bool | None = None, max_influences: int | None = None,
             skeleton_template: str | Mapping[str, Any] | None = None,
-            fixed_joints: Mapping[str, Sequence[float]] | None = None, ground_root: bool | None = None, task: Task | None = None,
-            on_progress: Progress | None = None) -> Skeleton:
+            fixed_joints: Mapping[str, Sequence[float]] | None = None, ground_root: bool | None = None,
+            drop_helpers: bool | None = None, task: Task | None = None, on_progress: Progress | None = None) -> Skeleton:
         """Joints and skin weights for this mesh, in the pose that it has. About a second.
 
         names              "as_trained" (default), "vrm", "mixamo", "unreal", "rigify", "unity", "rigify_metarig"
         joint_names        names of your own: {name in the model: yours}, or one (or None) for each joint in order
         animations         a rigged character, loaded from glTF, whose animations Skeleton.write puts in
-        rest_pose          the file shows the character in the rest pose of those that taught the model
-        symmetric          bones of the left and right side get the same length
+        rest_pose          the pose that the file shows: "mesh" (default), "teachers" (True): the rest pose of those that taught the
+                           model, "t": the same with level arms, "a": with arms 45 degrees below the level
+        symmetric          joints and weights become mirror images where the mesh stands alike on both sides; else bones of both
+                           sides get the same length, with a warning
         max_influences     joints that move one vertex, 1 to 8 (default 4)
         skeleton_template  a skeleton of your own over the landmarks, as JSON text or as a mapping
         fixed_joints       {name in the model or template: (x, y, z)}: joints that are known, as after a correction by hand. They
                            lie there to the bit; the others follow, less the farther along the bones
         ground_root        one more joint, "root", first and above all others, on the ground
+        drop_helpers       without twist bones and helpers (told by their names); the joints above get what they moved
 
         Error: INVALID_ARGUMENT (no template, and the model was not learned of rigged characters; fewer than three
         landmarks found), INVALID_FILE (the template is no JSON); Cancelled.
         """
         character = None if animations is None else handle_of(animations, Mesh, "animations")
         params = skeleton_params(self._joint_names, names=names, joint_names=joint_names, animations=character,
-                                 rest_pose=rest_pose, symmetric=symmetric, max_influences=max_influences, ground_root=ground_root,
+                                 rest_pose=rest_pose, symmetric=symmetric, max_influences=max_influences, ground_root=ground_root, drop_helpers=drop_helpers,
                                  skeleton_template=skeleton_template, fixed_joints=fixed_joints, origin=self._origin)
         handle = self._handle
 

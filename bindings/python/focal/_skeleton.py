@@ -156,6 +156,8 @@ def skeleton_params(known: list[str], *, names: Any, joint_names: Any, skeleton_
     if skeleton_template is not None and not isinstance(skeleton_template, str):
         skeleton_template = json.dumps(_mapping(skeleton_template, "skeleton_template"))
     animations = fields.pop("animations")
+    if fields.get("rest_pose") is not None:
+        fields["rest_pose"] = _pose(fields["rest_pose"])
     params: _abi.focal_skeleton_params = fill(new(_abi.focal_skeleton_params), names=names, skeleton_template=skeleton_template, **fields)
     if animations is not None:
         params.animations = animations
@@ -169,6 +171,14 @@ def skeleton_params(known: list[str], *, names: Any, joint_names: Any, skeleton_
         params.joint_names = (ctypes.c_char_p * len(texts))(*texts)
         params.joint_name_count = len(texts)
     return params
+
+
+def _pose(value: Any) -> _abi.Pose:
+    if isinstance(value, bool):
+        return _abi.Pose.OF_TEACHERS if value else _abi.Pose.OF_MESH
+    if isinstance(value, str) and value.lower() in ("mesh", "teachers"):
+        value = f"of_{value}"
+    return choice(_abi.Pose, value, "rest_pose")
 
 
 def _template_joints(template: bytes) -> list[str]:

@@ -20,7 +20,7 @@ _RANGES = {
 }
 # By field; 0..1 the quality of a skeleton is a double, and stays one.
 _ENUMS = {"preset": _abi.Preset, "backend": _abi.Backend, "quality": _abi.Quality, "surface": _abi.Surface,
-          "verdict": _abi.Verdict}
+          "verdict": _abi.Verdict, "rest_pose": _abi.Pose}
 
 
 class SurfacePoint(NamedTuple):
