@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <numeric>
 #include <utility>
 
 #include "arguments.h"
@@ -11,11 +13,13 @@
 #include "gltf/document.h"
 #include "skeleton/bone_roles.h"
 #include "skeleton/ground_root.h"
+#include "skeleton/helper_bones.h"
 #include "skeleton/joint_match.h"
-#include "skeleton/retarget.h"
+#include "skeleton/stretched_arms.h"
 #include "skeleton_template.h"
 #include "structs.h"
 #include "surface_points.h"
+#include "taken_animations.h"
 #include "task.h"
 
 namespace focal {
@@ -60,8 +64,8 @@ namespace {
 void check(const focal_skeleton_params& params) {
   check_range("focal_skeleton_params.names", params.names, FOCAL_BONE_NAMES_AS_TRAINED,
               FOCAL_BONE_NAMES_RIGIFY_METARIG);
-  check_flag("focal_skeleton_params.rest_pose", params.rest_pose);
-  check_reserved("focal_skeleton_params.reserved", params.reserved);
+  check_range("focal_skeleton_params.rest_pose", params.rest_pose, FOCAL_POSE_OF_MESH, FOCAL_POSE_A);
+  check_flag("focal_skeleton_params.drop_helpers", params.drop_helpers);
   check_flag("focal_skeleton_params.symmetric", params.symmetric);
   check_flag("focal_skeleton_params.ground_root", params.ground_root);
   check_reserved("focal_skeleton_params.reserved_2", params.reserved_2);
@@ -93,19 +97,43 @@ FixedJoints fixed_joints(const focal_skeleton_params& params, size_t joints) {
   return result;
 }
 
-void rename_joints(const focal_skeleton_params& params, CharacterRig& rig) {
+// numbers: of the joints in the model or template, where some were dropped.
+void rename_joints(const focal_skeleton_params& params, const std::vector<size_t>& numbers,
+                   CharacterRig& rig) {
   auto& joints = rig.rig.joints;
   size_t known = 0;
   const std::vector<std::string> names = names_by_role(joints, static_cast<BoneNames>(params.names), known);
   if (known == 0)
     rig.warnings.push_back("no bone has a role in this convention of names: all of them keep their own");
-  for (size_t j = 0; j < joints.size(); ++j)
-    joints[j].name = params.joint_names && params.joint_names[j] ? params.joint_names[j] : names[j];
+  const auto own = [&](size_t j) { return params.joint_names ? params.joint_names[numbers[j]] : nullptr; };
+  for (size_t j = 0; j < joints.size(); ++j) joints[j].name = own(j) ? own(j) : names[j];
+}
+
+std::vector<size_t> kept_joints(const focal_skeleton_params& params, CharacterRig& rig) {
+  if (params.drop_helpers) return drop_helper_bones(rig);
+  std::vector<size_t> all(rig.rig.joints.size());
+  std::iota(all.begin(), all.end(), size_t{0});
+  return all;
+}
+
+std::vector<Matrix4> shown_pose(focal_pose pose, const CharacterRig& rig) {
+  if (rig.rest.empty())
+    throw Error(Status::invalid_argument, "the template has no rest pose",
+                R"(give its joints a "rest": the way their bones point)");
+  if (pose == FOCAL_POSE_OF_TEACHERS) return rig.rest;
+  constexpr double below = std::numbers::pi / 4;
+  const auto result = stretched_arms(rig.rig.joints, rig.rest, pose == FOCAL_POSE_A ? below : 0.0);
+  if (result.empty())
+    throw Error(Status::invalid_argument, "the skeleton has no two arms, which a T or A pose is made of",
+                "ask for the rest pose of the characters that taught the model, FOCAL_POSE_OF_TEACHERS");
+  return result;
 }
 
 void put_root(const focal_skeleton_params& params, SkeletonObject& object) {
   const bool capital = params.names == FOCAL_BONE_NAMES_UNITY;
   add_ground_root(capital ? "Root" : "root", object.mesh->mesh->source, object.rig);
+  if (!object.shown_pose.empty())
+    object.shown_pose.insert(object.shown_pose.begin(), object.rig.rig.joints.front().bind);
   for (JointAnimation& one : object.animations) one.joints.insert(one.joints.begin(), JointKeys{});
 }
 
@@ -118,64 +146,6 @@ void judge(SkeletonObject& object, const RigMeasures& measures) {
   const std::vector<std::string> doubts = doubts_about(measures);
   for (size_t i = 0; i < doubts.size(); ++i) text += (i ? "; " : ": ") + doubts[i];
   object.rig.warnings.push_back(text);
-}
-
-std::vector<std::string> names_of(const std::vector<Joint>& joints) {
-  std::vector<std::string> names;
-  for (const Joint& joint : joints) names.push_back(joint.name);
-  return names;
-}
-
-// "'a', 'b', 'c' and 3 more"
-std::string listed(const std::vector<std::string>& names) {
-  constexpr size_t most = 6;
-  std::string text;
-  for (size_t i = 0; i < std::min(names.size(), most); ++i) text += (i ? ", '" : "'") + names[i] + "'";
-  return text + (names.size() > most ? " and " + std::to_string(names.size() - most) + " more" : "");
-}
-
-bool moves_joint(const Clip& clip, const std::vector<Joint>& joints) {
-  return std::any_of(clip.channels.begin(), clip.channels.end(), [&](const Channel& channel) {
-    return std::any_of(joints.begin(), joints.end(),
-                       [&](const Joint& joint) { return joint.node == channel.node; });
-  });
-}
-
-std::vector<JointAnimation> animations_for(const CharacterRig& rig, const PreparedMesh& target,
-                                           const MeshObject& character, std::vector<std::string>& warnings) {
-  if (!character.document)
-    throw Error(Status::invalid_argument, "the character has no glTF file to take animations from",
-                "load it with focal_mesh_load_gltf and focal_mesh_params.keep_source_file 1");
-  const auto source = character.document->rig(character.primitives);
-  if (!source)
-    throw Error(Status::invalid_argument, "the character that animations are to come from has no skin",
-                "pass a rigged and animated character");
-  const GltfAnimations found = character.document->animations();
-  warnings.insert(warnings.end(), found.warnings.begin(), found.warnings.end());
-  const ClipSource from{source->joints, found.tree};
-  std::vector<JointAnimation> result;
-  std::vector<std::string> missing, still;
-  for (const Clip& clip : found.clips) {
-    if (!moves_joint(clip, source->joints)) {
-      still.push_back(clip.name);
-      continue;
-    }
-    Retargeted made = retarget(from, clip, rig.rig.joints, rig.rest, target.scale / character.mesh->scale);
-    missing = std::move(made.missing);
-    result.push_back({clip.name, std::move(made.joints)});
-  }
-  if (!still.empty())
-    warnings.push_back("left out, since they move no joint of the character: " + listed(still));
-  if (!result.empty() && missing.size() == rig.rig.joints.size())
-    throw Error(
-        Status::invalid_argument,
-        "no joint of the skeleton (" + listed(missing) + ") is one of the animated character's (" +
-            listed(names_of(source->joints)) + ")",
-        "joints are matched by name: pass a character of the same skeleton, or of a known convention");
-  if (!result.empty() && !missing.empty())
-    warnings.push_back("the animations do not move joints that their character lacks: " + listed(missing));
-  if (result.empty()) warnings.push_back("the character has no animations");
-  return result;
 }
 
 // The skeleton of the mesh's own file, if it has one that can be read: what is wrong with it is no reason not to give it another.
@@ -221,7 +191,7 @@ SourceFile with_skeleton(const SkeletonObject& object, const std::filesystem::pa
     source.document.replace_weights(source.primitives, object.rig.rig);
   } else {
     GltfRig rig{&object.rig.rig, object.rig.tip, {}, object.animations, &object.mesh->mesh->source};
-    if (object.in_rest_pose) rig.pose = object.rig.rest;
+    rig.pose = object.shown_pose;
     rig.replaces = replaced_joints(*object.mesh, joints);
     source.document.add_skin(source.primitives, rig);
   }
@@ -287,13 +257,11 @@ focal_status focal_skeleton_create(const focal_detection* detection, const focal
                           : transfer_rig(found, execution, how.symmetric != 0, how.max_influences, fixed);
     // Before the joints are renamed: names identify pairs of joints, and those of the model.
     const RigMeasures measures = rig_measures(found, object->rig);
-    if (how.rest_pose && object->rig.rest.empty())
-      throw Error(Status::invalid_argument, "the template has no rest pose",
-                  R"(give its joints a "rest": the way their bones point)");
+    const std::vector<size_t> numbers = kept_joints(how, object->rig);
+    if (how.rest_pose != FOCAL_POSE_OF_MESH) object->shown_pose = shown_pose(how.rest_pose, object->rig);
     if (character)
       object->animations = animations_for(object->rig, *object->mesh->mesh, *character, object->rig.warnings);
-    object->in_rest_pose = how.rest_pose != 0;
-    rename_joints(how, object->rig);
+    rename_joints(how, numbers, object->rig);
     const auto idle = clips_of_former_skeleton(*object->mesh, object->rig.rig.joints);
     if (!idle.empty())
       object->rig.warnings.push_back(

@@ -24,7 +24,7 @@ struct SkeletonObject {
   double quality = 0;
   uint32_t guessed_joints = 0;
   std::vector<JointAnimation> animations;
-  bool in_rest_pose = false;  // as the file shows it
+  std::vector<Matrix4> shown_pose;  // per joint, as the file shows them; empty: in the pose of the mesh
 };
 
 }  // namespace focal

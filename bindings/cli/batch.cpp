@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options : CommonOptions {
+struct BatchOptions : CommonOptions {
   std::string model, input, output, shard;
   bool rig = false, keep_failed = false;
   focal_quality quality = FOCAL_QUALITY_BEST;
@@ -56,7 +56,7 @@ Found files_in(const std::string& folder, const std::string& shard) {
 
 // The mesh's own file with landmarks, and with a skeleton if asked for.
 Json process(const Context& context, const focal_model* model, const fs::path& file, const fs::path& target,
-             const Options& options, focal_task* task) {
+             const BatchOptions& options, focal_task* task) {
   const Mesh mesh = load_mesh(context.get(), file.string(), options);
   auto params = detect_params_of(options.quality, options);
   params.keep_votes = 0;
@@ -98,8 +98,8 @@ Json verdict_counts(const Json& list) {
   return counts;
 }
 
-void print_report(const Options& options, const Json& list, const std::vector<fs::path>& others, size_t kept,
-                  size_t failed) {
+void print_report(const BatchOptions& options, const Json& list, const std::vector<fs::path>& others,
+                  size_t kept, size_t failed) {
   const Json verdicts = verdict_counts(list);
   const size_t done = list.size() - failed - kept;
   if (options.json) {
@@ -128,7 +128,7 @@ void print_report(const Options& options, const Json& list, const std::vector<fs
               << verdicts["failed"] << " failed\n";
 }
 
-void batch(const Options& options) {
+void batch(const BatchOptions& options) {
   const auto [files, others] = files_in(options.input, options.shard);
   std::error_code error;
   fs::create_directories(options.output, error);
@@ -167,7 +167,7 @@ void batch(const Options& options) {
 void add_batch(CLI::App& app) {
   CLI::App* verb =
       app.add_subcommand("batch", "Put a model to every mesh of a folder; goes on where it stopped");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<BatchOptions>();
   add_model_argument(*verb, options->model);
   verb->add_option("FOLDER", options->input, "Folder with .glb and .gltf files")->type_name("")->required();
   verb->add_option(

@@ -11,12 +11,12 @@
 namespace focal_cli {
 namespace {
 
-struct Options : CommonOptions {
+struct ConvertOptions : CommonOptions {
   std::string in, out;
 };
 
 // To look at what stands for a character of many parts in the analysis.
-void convert_to_wrap(const Options& options) {
+void convert_to_wrap(const ConvertOptions& options) {
   check_output_folder(options.out);
   const Context context = make_context(options);
   const Mesh mesh = load_mesh(context.get(), options.in, options);
@@ -35,7 +35,7 @@ void convert_to_wrap(const Options& options) {
             << " triangles; the mesh is analysed " << (from.is_wrapped ? "so" : "as it is, not so") << "\n";
 }
 
-void convert(const Options& options) {
+void convert(const ConvertOptions& options) {
   if (is_gltf(options.in) && is_gltf(options.out)) return convert_to_wrap(options);
   if (options.lenient || options.keep_scenery || options.surface != FOCAL_SURFACE_AUTO)
     throw CommandError("--lenient, --surface and --keep-scenery are for meshes",
@@ -64,7 +64,7 @@ void add_convert(CLI::App& app) {
                                       "Convert landmark files: .landmarks.json, 3D Slicer's .mrk.json and "
                                       ".fcsv, .csv, MeshLab's .pp; or write the "
                                       "closed surface round a mesh: CHARACTER.glb WRAP.glb");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ConvertOptions>();
   verb->add_option("IN", options->in, "Landmark file or mesh to read")->type_name("")->required();
   verb->add_option("OUT", options->out, "File to write; its ending chooses the format")
       ->type_name("")

@@ -15,7 +15,7 @@ namespace {
 
 using Correspondence = Owned<focal_correspondence, focal_correspondence_destroy>;
 
-struct Options : CommonOptions {
+struct CorrespondOptions : CommonOptions {
   std::string model, from, to, output;
   bool dense = false;
   focal_quality quality = FOCAL_QUALITY_BEST;
@@ -52,7 +52,7 @@ Json dense_json(const focal_detection* from, const focal_detection* to, const fo
   return list;
 }
 
-void correspond(const Options& options) {
+void correspond(const CorrespondOptions& options) {
   check_output_folder(options.output);
   const Context context = make_context(options);
   Progress progress(options.quiet);
@@ -82,7 +82,7 @@ void correspond(const Options& options) {
 
 void add_correspond(CLI::App& app) {
   CLI::App* verb = app.add_subcommand("correspond", "Find which point of one mesh is which of another");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CorrespondOptions>();
   add_model_argument(*verb, options->model);
   verb->add_option("A", options->from, "glTF file: each of its landmarks or vertices ...")
       ->type_name("")

@@ -15,14 +15,14 @@ namespace {
 constexpr size_t kMostFolds = 10;    // leave-one-out up to ten meshes
 constexpr size_t kFewestMeshes = 3;  // one left out leaves two, the fewest that can be learned from
 
-struct Options : CommonOptions, TrainOptions {
+struct CrossValidationOptions : CommonOptions, TrainOptions {
   std::string set, split = "train";
   size_t folds = 0, limit = 0;
   std::vector<std::string> subset;
   focal_quality quality = FOCAL_QUALITY_BEST;
 };
 
-size_t chosen_folds(const Options& options, size_t meshes) {
+size_t chosen_folds(const CrossValidationOptions& options, size_t meshes) {
   if (meshes < kFewestMeshes) {
     throw CommandError("cross-validation needs at least 3 meshes, but there are " + std::to_string(meshes),
                        "mark more meshes, or choose another --split or --limit");
@@ -39,8 +39,8 @@ size_t chosen_folds(const Options& options, size_t meshes) {
 // many detections as it has meshes; progress counts each as a step.
 class CrossValidation {
  public:
-  CrossValidation(const Options& options, const SetFolder& set, const std::vector<std::string>& names,
-                  const focal_context* context, Progress& progress)
+  CrossValidation(const CrossValidationOptions& options, const SetFolder& set,
+                  const std::vector<std::string>& names, const focal_context* context, Progress& progress)
       : options_(options),
         set_(set),
         counted_(counted_landmarks(set, options.subset)),
@@ -86,7 +86,7 @@ class CrossValidation {
   }
   size_t steps() const { return folds_.size() + fold_count_; }
 
-  const Options& options_;
+  const CrossValidationOptions& options_;
   const SetFolder& set_;
   const std::set<std::string> counted_;
   const focal_context* context_;
@@ -97,7 +97,7 @@ class CrossValidation {
   size_t step_ = 0;
 };
 
-void cross_validate(const Options& options) {
+void cross_validate(const CrossValidationOptions& options) {
   const SetFolder set = read_set(options.set);
   const std::vector<std::string> names = set.meshes(options.split, options.limit);
   const Context context = make_context(options);
@@ -132,7 +132,7 @@ void cross_validate(const Options& options) {
 void add_cross_validate(CLI::App& app) {
   CLI::App* verb =
       app.add_subcommand("cross-validate", "Train and evaluate in turn on one set, no mesh in both");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CrossValidationOptions>();
   verb->add_option("SET", options->set, "Folder with set.json, NAME.glb and NAME.landmarks.json")
       ->type_name("")
       ->required();

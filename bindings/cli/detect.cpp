@@ -15,7 +15,7 @@
 namespace focal_cli {
 namespace {
 
-struct Options : CommonOptions {
+struct DetectOptions : CommonOptions {
   std::string model, mesh, output, votes;
   focal_quality quality = FOCAL_QUALITY_BEST;
 };
@@ -102,7 +102,7 @@ Landmark file_landmark(const focal_landmark& landmark) {
   return mark;
 }
 
-void write_output(const focal_detection* detection, const Options& options) {
+void write_output(const focal_detection* detection, const DetectOptions& options) {
   if (is_gltf(options.output)) return check(focal_detection_write_gltf(detection, options.output.c_str()));
   LandmarkFile file{std::filesystem::path(options.mesh).filename().string(), {}};
   for (const focal_landmark& landmark : landmarks_of(detection))
@@ -130,7 +130,7 @@ void print_detection(const Json& report) {
             << " s; fits the category: " << percent_text(report["category_fit"].get<double>(), 0) << "\n";
 }
 
-void detect(const Options& options) {
+void detect(const DetectOptions& options) {
   for (const std::string& path : {options.output, options.votes}) {
     if (!path.empty()) check_output_folder(path);
   }
@@ -158,7 +158,7 @@ void detect(const Options& options) {
 
 void add_detect(CLI::App& app) {
   CLI::App* verb = app.add_subcommand("detect", "Find a model's landmarks on a mesh");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<DetectOptions>();
   add_model_argument(*verb, options->model);
   verb->add_option("MESH", options->mesh, "glTF file, .glb or .gltf")->type_name("")->required();
   verb->add_option(

@@ -14,7 +14,7 @@
 namespace focal_cli {
 namespace {
 
-struct Options : CommonOptions {
+struct EvalOptions : CommonOptions {
   std::string model, set, split = "test", report;
   size_t limit = 0;
   std::vector<std::string> subset;
@@ -33,7 +33,7 @@ void check_some_known(const focal_model* model, const std::set<std::string>& cou
 // One detection after the other; what the page shows is taken from each before it goes.
 std::vector<MeshOutcome> outcomes_of(const focal_context* context, const focal_model* model,
                                      const SetFolder& set, const std::set<std::string>& counted,
-                                     const Options& options, Progress& progress, ReportPage* page) {
+                                     const EvalOptions& options, Progress& progress, ReportPage* page) {
   const std::vector<std::string> names = set.meshes(options.split, options.limit);
   auto params = detect_params_of(options.quality, options);
   params.keep_votes = page != nullptr;
@@ -48,7 +48,7 @@ std::vector<MeshOutcome> outcomes_of(const focal_context* context, const focal_m
   return outcomes;
 }
 
-Json report_of(const Options& options, const SetFolder& set, const focal_model* model,
+Json report_of(const EvalOptions& options, const SetFolder& set, const focal_model* model,
                const std::vector<MeshOutcome>& outcomes, const Summary& summary) {
   auto info = initialised(focal_model_info_init);
   auto params = initialised(focal_train_params_init);
@@ -68,7 +68,7 @@ Json report_of(const Options& options, const SetFolder& set, const focal_model* 
   return report;
 }
 
-void evaluate(const Options& options) {
+void evaluate(const EvalOptions& options) {
   if (!options.report.empty()) check_output_folder(options.report);
   const SetFolder set = read_set(options.set);
   const std::set<std::string> counted = counted_landmarks(set, options.subset);
@@ -101,7 +101,7 @@ void evaluate(const Options& options) {
 
 void add_eval(CLI::App& app) {
   CLI::App* verb = app.add_subcommand("eval", "Measure a model on the marked meshes of a set");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<EvalOptions>();
   add_model_argument(*verb, options->model);
   verb->add_option("SET", options->set, "Folder with set.json, NAME.glb and NAME.landmarks.json")
       ->type_name("")

@@ -14,7 +14,7 @@
 namespace focal_cli {
 namespace {
 
-struct Options : CommonOptions {
+struct InfoOptions : CommonOptions {
   std::string file;
 };
 
@@ -129,7 +129,7 @@ void print_text(const Json& report) {
   print_facts(std::cout, facts);
 }
 
-void info(const Options& options) {
+void info(const InfoOptions& options) {
   const Context context = make_context(options);
   const bool shows_mesh = is_mesh(options.file) && !is_stock_model(context.get(), options.file);
   const Json report = shows_mesh
@@ -143,7 +143,7 @@ void info(const Options& options) {
 
 void add_info(CLI::App& app) {
   CLI::App* verb = app.add_subcommand("info", "Show what is in a model or a mesh");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<InfoOptions>();
   verb->add_option("FILE", options->file, "Model file, name of a stock model, .glb or .gltf")
       ->type_name("")
       ->required();

@@ -23,10 +23,12 @@
 namespace focal_cli {
 namespace {
 
-struct Options : CommonOptions {
+struct RigOptions : CommonOptions {
   std::string model, mesh, output, names, animations, skeleton_template, vrm;
   std::vector<std::string> pins;
-  bool rest_pose = false, symmetric = false, keep_failed = false, keep_skeleton = false, ground_root = false;
+  focal_pose pose = FOCAL_POSE_OF_MESH;
+  bool rest_pose = false, symmetric = false, keep_failed = false, keep_skeleton = false, ground_root = false,
+       drop_helpers = false;
   int32_t influences = 4;
   focal_quality quality = FOCAL_QUALITY_BEST;
 };
@@ -88,11 +90,12 @@ std::vector<float> pinned(const std::vector<std::string>& pins, const std::vecto
   return places;
 }
 
-Skeleton skeleton_of(const Options& options, const focal_model* model, const focal_detection* detection,
+Skeleton skeleton_of(const RigOptions& options, const focal_model* model, const focal_detection* detection,
                      const focal_mesh* animations, focal_task* task) {
   auto params = initialised(focal_skeleton_params_init);
   params.animations = animations;
-  params.rest_pose = options.rest_pose, params.symmetric = options.symmetric;
+  params.rest_pose = options.rest_pose ? FOCAL_POSE_OF_TEACHERS : options.pose;
+  params.symmetric = options.symmetric, params.drop_helpers = options.drop_helpers;
   params.max_influences = options.influences, params.ground_root = options.ground_root;
   std::string skeleton_template;
   if (!options.skeleton_template.empty()) {
@@ -116,12 +119,12 @@ Skeleton skeleton_of(const Options& options, const focal_model* model, const foc
   return owned<Skeleton>(focal_skeleton_create, detection, &params, task);
 }
 
-bool writes(const RigVerdict& verdict, const Options& options) {
+bool writes(const RigVerdict& verdict, const RigOptions& options) {
   return !verdict.failed() || options.keep_failed;
 }
 
 Json report_of(const focal_skeleton* skeleton, const focal_detection* detection, const RigVerdict& verdict,
-               const Options& options, double seconds) {
+               const RigOptions& options, double seconds) {
   auto found = initialised(focal_detection_info_init);
   check(focal_detection_get_info(detection, &found));
   Json warnings = Json::array();
@@ -149,13 +152,13 @@ void print_rig(const Json& report, const RigVerdict& verdict) {
             << " s; fits the category: " << percent_text(report["category_fit"].get<double>(), 0) << "\n";
 }
 
-void write_file(const Options& options, const focal_skeleton* skeleton) {
+void write_file(const RigOptions& options, const focal_skeleton* skeleton) {
   if (options.vrm.empty()) return check(focal_skeleton_write_gltf(skeleton, options.output.c_str()));
   check(focal_skeleton_write_vrm(skeleton, read_text_file(options.vrm).c_str(), options.output.c_str()));
 }
 
 // The one file that is needed; a model is not.
-void rig_own_skeleton(const Options& options) {
+void rig_own_skeleton(const RigOptions& options) {
   if (!options.mesh.empty())
     throw CommandError("--keep-skeleton needs no model, '" + options.model + "' is one too many",
                        "write focal rig --keep-skeleton MESH -o OUT");
@@ -163,6 +166,8 @@ void rig_own_skeleton(const Options& options) {
                                                  {!options.skeleton_template.empty(), "--template"},
                                                  {!options.animations.empty(), "--animations"},
                                                  {options.rest_pose, "--rest-pose"},
+                                                 {options.pose != FOCAL_POSE_OF_MESH, "--pose"},
+                                                 {options.drop_helpers, "--drop-helpers"},
                                                  {options.symmetric, "--symmetric"},
                                                  {options.ground_root, "--ground-root"},
                                                  {!options.vrm.empty(), "--vrm"},
@@ -175,13 +180,13 @@ void rig_own_skeleton(const Options& options) {
 }
 
 // Who names a mesh alone has no model yet, and learns here which there are.
-void check_both_given(const Options& options, const focal_context* context) {
+void check_both_given(const RigOptions& options, const focal_context* context) {
   if (options.mesh.empty())
     throw CLI::ValidationError("MODEL and MESH",
                                "both are needed, '" + options.model + "' is alone; " + model_hint(context));
 }
 
-void rig(const Options& options) {
+void rig(const RigOptions& options) {
   if (options.keep_skeleton) return rig_own_skeleton(options);
   const auto start = std::chrono::steady_clock::now();
   const Context context = make_context(options);
@@ -225,7 +230,7 @@ void rig(const Options& options) {
 void add_rig(CLI::App& app) {
   CLI::App* verb =
       app.add_subcommand("rig", "Give a mesh the skeleton and skin weights of a model's characters");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<RigOptions>();
   verb->add_option(
           "MODEL", options->model,
           "Model of rigged characters (focal train --rigs), or the name of a stock model: focal models")
@@ -246,12 +251,26 @@ void add_rig(CLI::App& app) {
           "characters")
       ->type_name("FILE.json");
   verb->add_flag("--symmetric", options->symmetric,
-                 "Bones of the left and right side, which their names identify, get the same length");
+                 "Joints and weights become exact mirror images where the mesh stands alike on both sides; "
+                 "else bones of "
+                 "both sides get the same length");
   verb->add_option("--influences", options->influences, "joints that move one vertex, at most (default 4)")
       ->check(CLI::Range(1, 8));
   verb->add_flag("--rest-pose", options->rest_pose,
-                 "Show the mesh in the rest pose (T or A) of the first character that taught the model, by "
-                 "its new joints");
+                 "Show the mesh in the rest pose of the first character that taught the model, by its new "
+                 "joints: --pose teachers");
+  add_choice(*verb, "--pose", options->pose,
+             "The pose that the file shows, by the new joints: that of the mesh (the default), the teachers' "
+             "rest pose, the same with level arms (t) or with arms 45 degrees below the level (a)",
+             "mesh|teachers|t|a",
+             {{"mesh", FOCAL_POSE_OF_MESH},
+              {"teachers", FOCAL_POSE_OF_TEACHERS},
+              {"t", FOCAL_POSE_T},
+              {"a", FOCAL_POSE_A}});
+  verb->get_option("--pose")->excludes("--rest-pose");
+  verb->add_flag(
+      "--drop-helpers", options->drop_helpers,
+      "Without the twist bones and helpers of the model's characters; the joints above get what they moved");
   verb->add_flag("--ground-root", options->ground_root,
                  "One more joint on the ground, above all others, as engines expect it");
   verb->add_option(

@@ -14,7 +14,7 @@
 namespace focal_cli {
 namespace {
 
-struct Options : CommonOptions {
+struct SegmentOptions : CommonOptions {
   std::string model, mesh, output;
   focal_segmentation method = FOCAL_SEGMENTATION_AUTO;
   focal_quality quality = FOCAL_QUALITY_BEST;
@@ -27,7 +27,7 @@ std::vector<std::string> label_names(const focal_model* model, focal_segmentatio
   return joints ? joint_names_of(model) : landmark_names_of(model);
 }
 
-void segment(const Options& options) {
+void segment(const SegmentOptions& options) {
   check_output_folder(options.output);
   const Context context = make_context(options);
   Progress progress(options.quiet);
@@ -65,7 +65,7 @@ void segment(const Options& options) {
 
 void add_segment(CLI::App& app) {
   CLI::App* verb = app.add_subcommand("segment", "Divide a mesh into parts under the model's names");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<SegmentOptions>();
   add_model_argument(*verb, options->model);
   verb->add_option("MESH", options->mesh, "glTF file, .glb or .gltf")->type_name("")->required();
   verb->add_option("-o,--output", options->output,

@@ -13,7 +13,7 @@
 namespace focal_cli {
 namespace {
 
-struct Options : CommonOptions, TrainOptions {
+struct TrainingOptions : CommonOptions, TrainOptions {
   std::string set, output, split = "train";
   std::vector<std::string> rigs;
   size_t limit = 0;
@@ -30,7 +30,7 @@ std::vector<MarkedMesh> load_all(const focal_context* context, const SetFolder& 
   return meshes;
 }
 
-Json report_of(const Options& options, const SetFolder& set, const std::vector<std::string>& names,
+Json report_of(const TrainingOptions& options, const SetFolder& set, const std::vector<std::string>& names,
                const Model& model, double seconds, const focal_context* context) {
   auto info = initialised(focal_model_info_init);
   check(focal_model_get_info(model.get(), &info));
@@ -57,7 +57,7 @@ Json odd_rigs(focal_training_set* training_set) {
 }
 
 // Landmarks follow from the skeletons; nothing has to be marked.
-void train_on_rigs(const Options& options) {
+void train_on_rigs(const TrainingOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   check_output_folder(options.output);
   const Context context = make_context(options);
@@ -99,7 +99,7 @@ void train_on_rigs(const Options& options) {
               << options.output << ": " << bytes_text(static_cast<double>(info.file_bytes)) << "\n";
 }
 
-void train(const Options& options) {
+void train(const TrainingOptions& options) {
   if (options.rigs.empty() == options.set.empty())
     throw CommandError("give either a SET or --rigs", "'focal train --help' shows both");
   if (!options.rigs.empty()) return train_on_rigs(options);
@@ -132,7 +132,7 @@ void train(const Options& options) {
 void add_train(CLI::App& app) {
   CLI::App* verb = app.add_subcommand(
       "train", "Learn landmarks from a set of marked meshes, or a skeleton from rigged characters");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<TrainingOptions>();
   verb->add_option("SET", options->set, "Folder with set.json, NAME.glb and NAME.landmarks.json")
       ->type_name("");
   CLI::Option* rigs =

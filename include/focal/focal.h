@@ -775,6 +775,16 @@ enum {
   FOCAL_BONE_NAMES_RIGIFY_METARIG = 6 /* spine, upper_arm.L, thigh.L: what Rigify generates controls from */
 };
 
+/* In which pose a file shows the rigged mesh: its joints take it there, its vertices stay as they were. */
+typedef int32_t focal_pose;
+enum {
+  FOCAL_POSE_OF_MESH = 0, /* as the mesh stands */
+  FOCAL_POSE_OF_TEACHERS =
+      1,            /* the rest pose of the first character that taught the model, or of the template */
+  FOCAL_POSE_T = 2, /* the same with level arms, stretched out to the sides */
+  FOCAL_POSE_A = 3  /* the same with such arms 45 degrees below the level */
+};
+
 typedef struct focal_skeleton_params {
   uint32_t struct_size;
   /* Default AS_TRAINED. Bones are renamed by their roles, which follow from the words of their names and from where they hang, not
@@ -787,12 +797,11 @@ typedef struct focal_skeleton_params {
   /* A rigged character, loaded with focal_mesh_load_gltf, whose animations focal_skeleton_write_gltf puts
      in; NULL: none. Its joints should be named as those of the characters that taught the model. */
   const focal_mesh* animations;
-  /* 1: the file shows the character in the rest pose of the first character that taught the model (its T
-     or A pose), moved there by its new joints; its vertices stay as they were. Default 0: in the pose of
-     the mesh. */
-  int32_t rest_pose;
-  /* 1: bones of the left and right side, which their names identify, get the same length. Default 0. A template
-     may ask for it too. */
+  /* Default FOCAL_POSE_OF_MESH. T and A need a skeleton with two arms, told by the joints' roles; INVALID_ARGUMENT without. */
+  focal_pose rest_pose;
+  /* 1: what is alike on both sides becomes exactly so: joints of the left and right side, which their names identify, are mirror images
+     of each other, and so are the weights of vertices that are. A mesh that does not stand alike on both sides (posed, or fewer than half
+     of its vertices have a mirror image) gets bones of the same lengths, and a warning. Default 0. A template may ask for it too. */
   int32_t symmetric;
   /* A skeleton of your own over the model's landmarks, as JSON text (docs/rigs.md describes it); weights
      then follow from its bones by heat. NULL: the skeleton of the characters that taught the model. With a
@@ -800,7 +809,9 @@ typedef struct focal_skeleton_params {
   const char* skeleton_template;
   /* Joints that move one vertex, at most: 1 to 8, default 4. Above 4 the file has JOINTS_1 and WEIGHTS_1 too. */
   int32_t max_influences;
-  int32_t reserved;
+  /* 1: without the teachers' twist bones and helpers, told by the words of their names (twist, roll, helper, corrective, share); the
+     joints above them get what they moved. The skeleton then has fewer joints than the model. Default 0 */
+  int32_t drop_helpers;
   /* Joints that are known, as after a correction by hand: joint_count of the model or template x 3 positions, with NaN for a joint that
      is to follow. They lie there to the bit; the others move with them, less the farther along the bones, and weights suit
      them. fixed_joint_count: the joint_count, or 0 with NULL: none. */

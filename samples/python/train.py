@@ -1,4 +1,4 @@
-"""Learns the landmarks of a set and measures them on its test meshes. A SET is a folder as the README describes it:
+"""Learns the landmarks of a set and measures them on its test meshes. A SET is a folder as docs/landmark-format.md describes it:
 set.json, and for each mesh NAME.glb and NAME.landmarks.json.
 
     train.py SET MODEL.focal [KEYWORD=NUMBER...]

@@ -251,9 +251,14 @@ std::vector<std::string> humanoid_names(const std::vector<std::string>& names,
   return result;
 }
 
-BoneKind bone_kind(const std::string& name) {
+std::vector<std::string> bone_words(const std::string& name) {
   Words words = words_of(name);
   split_sides(words);
+  return words;
+}
+
+BoneKind bone_kind(const std::string& name) {
+  const Words words = bone_words(name);
   BoneKind kind;
   std::string rest;
   for (const std::string& word : words) {

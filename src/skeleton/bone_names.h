@@ -35,6 +35,8 @@ struct BoneKind {
   bool of_quadruped = false;  // it says front or hind
 };
 BoneKind bone_kind(const std::string& name);
+// Small letters, set apart by whatever is none and by capitals; sides are words of their own.
+std::vector<std::string> bone_words(const std::string& name);
 
 // The name of the same thing on the other side: left and right, or a single L and R set apart (hand.L, L_hand, hand_l), whatever
 // the case. Nothing for a name without a side.

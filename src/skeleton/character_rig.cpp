@@ -51,7 +51,19 @@ void put_influences(const Eigen::Ref<const Eigen::RowVectorXf>& weights, int32_t
   const float total = weights.sum();
   for (Eigen::Index j = 0; j < weights.size(); ++j)
     if (weights[j] > least_weight * total) influences.push_back({static_cast<int32_t>(j), weights[j]});
-  influences = heaviest(influences, static_cast<size_t>(most));
+  put_influences(heaviest(influences, static_cast<size_t>(most)), vertex, rig);
+}
+
+std::vector<Influence> influences_of(const Rig& rig, size_t vertex) {
+  std::vector<Influence> all(rig.influences[vertex].begin(), rig.influences[vertex].end());
+  if (!rig.more.empty()) all.insert(all.end(), rig.more[vertex].begin(), rig.more[vertex].end());
+  std::erase_if(all, [](const Influence& one) { return !(one.weight > 0); });
+  return all;
+}
+
+void put_influences(const std::vector<Influence>& influences, size_t vertex, Rig& rig) {
+  rig.influences[vertex] = {};
+  if (!rig.more.empty()) rig.more[vertex] = {};
   for (size_t i = 0; i < influences.size(); ++i)
     (i < most_influences ? rig.influences : rig.more)[vertex][i % most_influences] = influences[i];
 }

@@ -41,6 +41,9 @@ struct ToCaller {
 // Puts the heaviest weights of a row (one a joint, >= 0), `most` of 1 to 8, where a vertex of the rig has its influences.
 void put_influences(const Eigen::Ref<const Eigen::RowVectorXf>& weights, int32_t most, size_t vertex,
                     Rig& rig);
+// All of one vertex, with what is in `more`; and the same back, at most as many as there is room for.
+std::vector<Influence> influences_of(const Rig& rig, size_t vertex);
+void put_influences(const std::vector<Influence>& influences, size_t vertex, Rig& rig);
 // Room for the influences of so many vertices, none of which any joint moves yet.
 void clear_influences(size_t vertices, int32_t most, Rig& rig);
 

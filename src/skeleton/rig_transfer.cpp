@@ -11,6 +11,7 @@
 #include "mesh/similarity.h"
 #include "skeleton/body_fit.h"
 #include "skeleton/detail_rig.h"
+#include "skeleton/mirrored_rig.h"
 #include "skeleton/part_weights.h"
 #include "skeleton/rig_landmarks.h"
 #include "skeleton/taught_weights.h"
@@ -368,9 +369,10 @@ CharacterRig transfer_rig(const Detection& detection, const Execution& execution
   result.confidence = joints.confidence;
   put_influences_by_parts(weights, placed, analysis, influences, result.rig, execution);
   refine_details(detection, influences, result, execution);
-  if (symmetric) make_bones_symmetric(result);
+  if (symmetric) make_symmetric(full.source, fixed, result);
   follow(fixed, fixed_joint_reach * full.scale, result);  // what details and symmetry have moved
   result.rest = rest_pose(model, result.rig.joints);
+  if (symmetric) make_rest_symmetric(result);
   return result;
 }
 

@@ -7,6 +7,7 @@
 #include "landmarks/model_parts.h"
 #include "mesh/section.h"
 #include "skeleton/bone_heat.h"
+#include "skeleton/mirrored_rig.h"
 #include "skeleton/rig_landmarks.h"
 
 namespace focal {
@@ -314,6 +315,7 @@ CharacterRig rig_by_template(const SkeletonTemplate& skeleton, const Detection& 
   for (Vector3& tip : result.tip) tip = to_caller(tip);
   for (size_t j = 0; j < fixed.size(); ++j)
     if (fixed[j]) joints[j].bind.topRightCorner<3, 1>() = *fixed[j];  // to the bit
+  if (skeleton.symmetric) make_symmetric(detection.mesh->source, fixed, result);
   result.rest = rest_of(skeleton, joints);
   return result;
 }

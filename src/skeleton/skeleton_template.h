@@ -21,7 +21,7 @@ struct TemplateJoint {
 
 struct SkeletonTemplate {
   std::vector<TemplateJoint> joints;
-  bool symmetric = false;  // see make_bones_symmetric
+  bool symmetric = false;  // see make_symmetric
 };
 
 // Joints lie inside the body; those whose landmarks are all absent at their parents, with a warning. Weights are those of bone

@@ -244,9 +244,13 @@ static void check_templates(void) {
   params.rest_pose = 0, params.animations = character;
   CHECK_REFUSED(focal_skeleton_create(detection, &params, NULL, &skeleton), FOCAL_ERROR_INVALID_ARGUMENT,
                 "together with a template");
-  params.animations = NULL, params.rest_pose = 2;
+  params.animations = NULL, params.rest_pose = 4;
   CHECK_REFUSED(focal_skeleton_create(detection, &params, NULL, &skeleton), FOCAL_ERROR_INVALID_ARGUMENT,
-                "rest_pose is 2");
+                "rest_pose is 4");
+  params.rest_pose = 0, params.drop_helpers = 2;
+  CHECK_REFUSED(focal_skeleton_create(detection, &params, NULL, &skeleton), FOCAL_ERROR_INVALID_ARGUMENT,
+                "drop_helpers is 2");
+  params.drop_helpers = 0;
   CHECK(skeleton == NULL);
   focal_detection_destroy(detection);
   focal_mesh_destroy(mesh), focal_mesh_destroy(character);

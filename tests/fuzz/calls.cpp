@@ -329,6 +329,8 @@ void use_detection(World& world) {
   if (given) {
     params.names = static_cast<focal_bone_names>(world.choose.below(7)),
     params.symmetric = static_cast<int32_t>(world.choose.below(3));
+    params.rest_pose = static_cast<int32_t>(world.choose.below(5));
+    params.drop_helpers = static_cast<int32_t>(world.choose.below(3));
     params.max_influences = static_cast<int32_t>(world.choose.below(10));
     params.skeleton_template =
         world.choose.below(4) == 0

@@ -20,6 +20,16 @@ class Landmarks(Case):
         found = detection()
         self.assertRegex(repr(found), r"^<focal\.Detection \d+ of 3 landmarks, category fit [01]\.\d\d>$")
         self.assertRegex(repr(mesh()), r"^<focal\.Mesh \d+ vertices, \d+ triangles>$")
+        self.assertEqual(repr(model()), "<focal.Model 3 landmarks>")
+        self.assertEqual(repr(training_set()), "<focal.TrainingSet 3 landmarks, 4 meshes>")
+        self.assertEqual(repr(focal.TrainingSet()), "<focal.TrainingSet rigged characters, 0 meshes>")
+        self.assertRegex(repr(focal.Context(thread_count=2)), r"^<focal\.Context c\w+, 2 threads>$")
+        self.assertRegex(repr(model().analyse(mesh())), r"^<focal\.Analysis 514 vertices, \d+ samples>$")
+        self.assertEqual(repr(found.correspond(found)), "<focal.Correspondence from 514 to 514 vertices>")
+        task = focal.Task()
+        self.assertEqual(repr(task), "<focal.Task 0%>")
+        task.cancel()
+        self.assertEqual(repr(task), "<focal.Task cancelled>")
 
     def test_found_where_they_are(self):
         truth = dict(zip(NAMES, shape(16, 0.12)[2]))
@@ -80,7 +90,11 @@ class Landmarks(Case):
 
     def test_many_at_once_are_the_same(self):
         meshes = [mesh(), mesh(16, 0.05)]
-        many = model().detect_many(meshes, keep_votes=False)
+        told = []
+        many = model().detect_many(meshes, keep_votes=False, on_progress=lambda *state: told.append(state))
+        self.assertEqual(told[-1], (1, "2 of 2 meshes"))
+        for progress, stage in told:
+            self.assertEqual(stage, f"{round(2 * progress)} of 2 meshes")
         for found, one in zip(many, meshes):
             self.assertEqual([mark.position for mark in found], [mark.position for mark in model().detect(one)])
         self.assertEqual(model().detect_many([]), [])

@@ -4,6 +4,7 @@ Environment: FOCAL_CHARACTERS a folder of sample humanoids (focal_creatures --fa
 """
 import functools
 import json
+import math
 import os
 import pathlib
 import struct
@@ -32,6 +33,32 @@ def found():
 def gltf(path):
     data = path.read_bytes()
     return json.loads(data[20:20 + struct.unpack_from("<I", data, 12)[0]])
+
+
+def joint_places(document):
+    """Of the file's first skin by name, in the world."""
+    nodes, places = document["nodes"], {}
+
+    def rotated(q, v):
+        x, y, z, w = q
+        t = [2 * (y * v[2] - z * v[1]), 2 * (z * v[0] - x * v[2]), 2 * (x * v[1] - y * v[0])]
+        return [v[0] + w * t[0] + y * t[2] - z * t[1], v[1] + w * t[1] + z * t[0] - x * t[2], v[2] + w * t[2] + x * t[1] - y * t[0]]
+
+    def visit(index, walk):
+        node = nodes[index]
+        walk = walk + [(node.get("rotation", [0, 0, 0, 1]), node.get("translation", [0, 0, 0]))]
+        place = [0, 0, 0]
+        for rotation, translation in reversed(walk):
+            place = [a + b for a, b in zip(rotated(rotation, place), translation)]
+        places[node.get("name")] = place
+        for child in node.get("children", []):
+            visit(child, walk)
+
+    below = {child for node in nodes for child in node.get("children", [])}
+    for index in range(len(nodes)):
+        if index not in below:
+            visit(index, [])
+    return places
 
 
 @unittest.skipUnless(HUMANOIDS.is_dir(), "FOCAL_CHARACTERS holds no humanoids")
@@ -191,6 +218,50 @@ class Rigs(Case):
         self.assertEqual(told[-1], 1)
         focal.TrainingSet().add_rig(focal.Mesh.load(folder / "rigged.glb"))  # it is a rigged character now
         self.refused(Status.FILE_NOT_FOUND, "", skeleton.write, folder / "none" / "rigged.glb")
+
+    def test_poses(self):
+        folder = pathlib.Path(self.folder())
+        for pose, below in (("t", 0), (focal.Pose.A, 45)):
+            found().rig(names="vrm", rest_pose=pose).write(folder / "posed.glb")
+            places = joint_places(gltf(folder / "posed.glb"))
+            for side in ("left", "right"):
+                for one, other in (("UpperArm", "LowerArm"), ("LowerArm", "Hand")):
+                    way = [b - a for a, b in zip(places[side + one], places[side + other])]
+                    self.assertAlmostEqual(math.degrees(math.asin(-way[1] / math.hypot(*way))), below, 2)
+            for still in ("hips", "leftUpperArm", "leftFoot"):
+                found().rig(names="vrm", rest_pose="teachers").write(folder / "rest.glb")
+                self.assertLess(math.dist(places[still], joint_places(gltf(folder / "rest.glb"))[still]), 1e-5)
+        for given, same in ((True, "teachers"), (False, "mesh"), (None, "mesh")):
+            for name, pose in (("one", given), ("other", same)):
+                found().rig(rest_pose=pose).write(folder / f"{name}.glb")
+            self.assertEqual((folder / "one.glb").read_bytes(), (folder / "other.glb").read_bytes())
+        with self.assertRaisesRegex(ValueError, "rest_pose is 'y', not one of"):
+            found().rig(rest_pose="y")
+
+    def test_symmetric(self):
+        """The sample stands in a pose of its own: bones of both sides get the same lengths, and a warning says that it is no more."""
+        skeleton = found().rig(symmetric=True)
+        joints = {joint.name: joint for joint in skeleton.joints}
+
+        def length(side):
+            return math.dist(joints[side + "UpperArm"].position, joints[side + "LowerArm"].position)
+
+        self.assertAlmostEqual(length("left"), length("right"), 5)
+        self.assertTrue(any("does not stand alike on both sides" in warning for warning in skeleton.warnings))
+
+    def test_helpers(self):
+        names = rig_model().joint_names
+        self.assertEqual([joint.name for joint in found().rig(drop_helpers=True).joints], names)  # it has none
+        parts = ("rightUpperLeg", "leftUpperLeg", "leftLowerLeg", "leftFoot")
+        marks = [next(mark.name for mark in found() if mark.name.startswith(f"{part} ")) for part in parts]
+        template = {**TEMPLATE, "joints": [
+            {"name": "hips", "centre": marks[:1]}, {"name": "thigh", "parent": "hips", "centre": marks[1:2]},
+            {"name": "thigh_twist_01", "parent": "thigh", "centre": marks[2:3]}, {"name": "calf", "parent": "thigh_twist_01", "centre": marks[3:]}]}
+        skeleton = found().rig(skeleton_template=template, drop_helpers=True, joint_names=["a", "b", "c", "d"])
+        self.assertEqual([(joint.name, joint.parent) for joint in skeleton.joints], [("a", -1), ("b", 0), ("d", 1)])
+        self.assertLess(max(max(int(j) for j in row) for row in skeleton.weights[0]), 3)
+        for row in skeleton.weights[1]:
+            self.assertAlmostEqual(sum(float(weight) for weight in row), 1, 5)
 
     def test_animations(self):
         folder, character = pathlib.Path(self.folder()), HUMANOIDS / "humanoid_00.rig.glb"

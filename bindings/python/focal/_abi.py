@@ -115,6 +115,14 @@ class BoneNames(IntEnum):
     RIGIFY_METARIG = 6
 
 
+class Pose(IntEnum):
+    """focal_pose"""
+    OF_MESH = 0
+    OF_TEACHERS = 1
+    T = 2
+    A = 3
+
+
 class Verdict(IntEnum):
     """focal_verdict"""
     GOOD = 0
@@ -363,7 +371,7 @@ class focal_skeleton_params(Structure):
         ("symmetric", c_int32),
         ("skeleton_template", c_char_p),
         ("max_influences", c_int32),
-        ("reserved", c_int32),
+        ("drop_helpers", c_int32),
         ("fixed_joints", P(c_float)),
         ("fixed_joint_count", c_uint64),
         ("ground_root", c_int32),

@@ -10,12 +10,21 @@ import array
 import ctypes
 import math
 import operator
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 try:
-    import numpy
+    import numpy as numpy  # shared with the other modules
 except ImportError:
     numpy = None  # type: ignore[assignment]
+
+if TYPE_CHECKING:  # with NumPy, which nearly every caller has; without it array.array, or a list of tuples where rows have a width
+    from numpy.typing import NDArray
+
+    Floats = NDArray[numpy.float32]
+    Numbers = NDArray[numpy.uint32]  # of vertices, triangles, joints
+    Labels = NDArray[numpy.int32]    # -1: none
+else:
+    Floats = Numbers = Labels = Any
 
 _TYPES: dict[str, Any] = {"f": ctypes.c_float, "I": ctypes.c_uint32, "i": ctypes.c_int32}
 _INTEGERS = "bBhHiIlLqQnN"
@@ -71,7 +80,7 @@ def _flat_numpy(value: Any, name: str, code: str, width: int) -> Any:
         return numpy.ascontiguousarray(given, numpy.float32 if code == "f" else numpy.uint32).reshape(-1)
 
 
-def _flat_plain(value: Any, name: str, code: str, width: int) -> array.array:
+def _flat_plain(value: Any, name: str, code: str, width: int) -> array.array[Any]:
     try:
         numbers = _flat_buffer(memoryview(value), name, code, width)
     except TypeError:

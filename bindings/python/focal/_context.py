@@ -21,9 +21,9 @@ _default: Context | None = None
 
 
 @functools.lru_cache(maxsize=None)
-def _forward():
+def _forward() -> Any:
     """One callback for all contexts: it lives for ever, so none is ever called after its end."""
-    def forward(number, level, message):
+    def forward(number: int, level: int, message: bytes) -> None:
         log = _logs.get(number)
         if log:
             log(_abi.LogLevel(level), message.decode("utf-8", "replace"))
@@ -67,6 +67,9 @@ class Context(Handle):
         super().close()
         _logs.pop(self._number, None)
 
+    def _facts(self) -> str:
+        return f"{self.backend.name.lower()}, {self.thread_count} threads"
+
     @property
     def backend(self) -> _abi.Backend:
         """The backend in use, never AUTO."""
@@ -76,17 +79,17 @@ class Context(Handle):
     def backend_reason(self) -> str:
         """Why it was chosen, in one sentence."""
         with self._borrow() as handle:
-            return library().focal_context_backend_reason(handle).decode("utf-8", "replace")
+            return str(library().focal_context_backend_reason(handle).decode("utf-8", "replace"))
 
     @property
     def thread_count(self) -> int:
         """The number of threads that a call may use."""
-        return library().focal_context_thread_count(self._handle)
+        return int(library().focal_context_thread_count(self._handle))
 
     @property
     def memory_held(self) -> int:
         """Bytes that the library holds in this process now, for all contexts together."""
-        return library().focal_context_memory_held(self._handle)
+        return int(library().focal_context_memory_held(self._handle))
 
     @property
     def stock_models(self) -> dict[str, pathlib.Path]:

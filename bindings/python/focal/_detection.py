@@ -7,12 +7,13 @@ from dataclasses import dataclass
 from typing import Any, Iterator, Mapping, Sequence
 
 from . import _abi
-from ._arrays import empty, result
+from ._arrays import Floats, Labels, empty, result
 from ._correspondence import Correspondence
 from ._handle import Handle, handle_of
 from ._landmark_files import landmarks_csv, landmarks_json, write_text
 from ._library import call, create, library
 from ._mesh import Mesh, placed
+from ._pickled import detection_again, detection_state
 from ._skeleton import Skeleton, skeleton_params
 from ._task import Progress, Task, run
 from ._values import SurfacePoint, as_dict, choice, floats, new, numbered, path_text, point_of, real
@@ -72,6 +73,7 @@ def _landmark_of(struct: _abi.focal_landmark, origin: Any) -> Landmark:
 
 class Detection(Handle):
     """The landmarks that a Model found on a Mesh, in the order of the model's names. It never changes.
+    It can be pickled: landmarks, info, warnings go along, and model and mesh, of which the rest is made again when it is asked for.
 
         for landmark in detection: print(landmark.name, landmark.position, landmark.confidence)
         detection["nose"].triangle
@@ -80,6 +82,30 @@ class Detection(Handle):
     _kind = "detection"
     _joint_names: list[str] = []
     _origin = (0.0, 0.0, 0.0)  # of the mesh
+    _made_of: tuple[Any, Any, dict[str, Any]] | None = None  # model, mesh or analysis, parameters
+    _told: dict[str, Any] | None = None  # of one that came from a pickle
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return detection_again, (detection_state(self),)
+
+    def _made_now(self) -> Any:
+        if self._made_of is None or self._told is None:
+            return None
+        with self._borrowing:
+            if self._pointer is None:
+                model, mesh, parameters = self._made_of
+                again = model.detect(mesh, **parameters)
+                self._pointer, again._pointer = again._pointer, None
+            return self._pointer
+
+    @property
+    def closed(self) -> bool:
+        """Whether close() has been called."""
+        return self._pointer is None and self._told is None
+
+    def close(self) -> None:
+        self._told = self._made_of = None
+        super().close()
 
     def _facts(self) -> str:
         found = sum(not landmark.absent for landmark in self)
@@ -95,6 +121,8 @@ class Detection(Handle):
 
     @property
     def landmarks(self) -> list[Landmark]:
+        if self._told:
+            return list(self._told["landmarks"])
         struct, found = new(_abi.focal_landmark), []
         with self._borrow() as handle:
             for index in range(library().focal_detection_landmark_count(handle)):
@@ -106,7 +134,7 @@ class Detection(Handle):
         return iter(self.landmarks)
 
     def __len__(self) -> int:
-        return self.info["landmark_count"]
+        return int(self.info["landmark_count"])
 
     def __getitem__(self, which: str | int) -> Landmark:
         """By name or number. KeyError, IndexError."""
@@ -116,6 +144,8 @@ class Detection(Handle):
     @property
     def info(self) -> dict[str, Any]:
         """landmark_count, warning_count, has_votes, vertex_count, triangle_count, category_fit, backend."""
+        if self._told:
+            return dict(self._told["info"])
         info = new(_abi.focal_detection_info)
         call("focal_detection_get_info", self._handle, ctypes.byref(info))
         return as_dict(info)
@@ -123,11 +153,13 @@ class Detection(Handle):
     @property
     def category_fit(self) -> float:
         """0..1: does this mesh belong to the model's category at all."""
-        return self.info["category_fit"]
+        return float(self.info["category_fit"])
 
     @property
     def seconds(self) -> dict[str, float]:
         """Wall time of each stage; "total": all of them and what lies between."""
+        if self._told:
+            return dict(self._told["seconds"])
         seconds = new(_abi.focal_stage_seconds)
         call("focal_detection_get_seconds", self._handle, ctypes.byref(seconds))
         return as_dict(seconds)
@@ -135,31 +167,34 @@ class Detection(Handle):
     @property
     def warnings(self) -> list[str]:
         """Plain sentences, the mesh's own first."""
+        if self._told:
+            return list(self._told["warnings"])
         return self._texts("focal_detection_warning", self.info["warning_count"])
 
-    def votes(self, landmark: str | int) -> Any:
+    def votes(self, landmark: str | int) -> Floats:
         """(vertex_count,) floats in 0..1: the vote map of one landmark. Error with Status.UNSUPPORTED when votes were
         not kept."""
         return self._per_vertex("focal_detection_votes", landmark)
 
-    def distances(self, landmark: str | int) -> Any:
+    def distances(self, landmark: str | int) -> Floats:
         """(vertex_count,) floats: distances along the surface from the landmark, in the mesh's units; infinite where
         no triangle uses the vertex. Error with Status.INVALID_LANDMARK when it has no place at all."""
         return self._per_vertex("focal_detection_distances", landmark)
 
-    def region(self, landmark: str | int, radius: float) -> Any:
+    def region(self, landmark: str | int, radius: float) -> Floats:
         """(vertex_count,) floats: 1 within `radius` of the landmark along the surface, 0 outside, in between at its
         border. radius is a share of sqrt(surface area), so one number means the same region on every mesh."""
         return self._per_vertex("focal_detection_region", landmark, real(radius, "radius"))
 
-    def _per_vertex(self, getter: str, landmark: str | int, *arguments: Any) -> Any:
+    def _per_vertex(self, getter: str, landmark: str | int, *arguments: Any) -> Floats:
         room = empty("f", self.info["vertex_count"])
         index = numbered(landmark, [one.name for one in self.landmarks])
         call(getter, self._handle, index, *arguments, room.rows, room.pointer)
-        return result(room.owner)
+        found: Floats = result(room.owner)
+        return found
 
     def segment(self, method: _abi.Segmentation | str = "auto", *, task: Task | None = None,
-                on_progress: Progress | None = None) -> Any:
+                on_progress: Progress | None = None) -> Labels:
         """(triangle_count,) labels, -1 where there is none.
 
         method  "skeleton": the joint that moves a triangle most (numbers of Model.joint_names); "geodesic": the
@@ -170,7 +205,8 @@ class Detection(Handle):
         handle = self._handle
         run(lambda task_handle: call("focal_detection_segment", handle, chosen, task_handle, room.rows, room.pointer),
             task, on_progress)
-        return result(room.owner)
+        labels: Labels = result(room.owner)
+        return labels
 
     def correspond(self, target: Detection, *, task: Task | None = None,
                    on_progress: Progress | None = None) -> Correspondence:
@@ -189,29 +225,32 @@ class Detection(Handle):
 
     def rig(self, *, names: _abi.BoneNames | str | None = None,
             joint_names: Sequence[str | None] | Mapping[str, str] | None = None, animations: Mesh | None = None,
-            rest_pose: bool | None = None, symmetric: bool | None = None, max_influences: int | None = None,
+            rest_pose: bool | _abi.Pose | str | None = None, symmetric: bool | None = None, max_influences: int | None = None,
             skeleton_template: str | Mapping[str, Any] | None = None,
-            fixed_joints: Mapping[str, Sequence[float]] | None = None, ground_root: bool | None = None, task: Task | None = None,
-            on_progress: Progress | None = None) -> Skeleton:
+            fixed_joints: Mapping[str, Sequence[float]] | None = None, ground_root: bool | None = None,
+            drop_helpers: bool | None = None, task: Task | None = None, on_progress: Progress | None = None) -> Skeleton:
         """Joints and skin weights for this mesh, in the pose that it has. About a second.
 
         names              "as_trained" (default), "vrm", "mixamo", "unreal", "rigify", "unity", "rigify_metarig"
         joint_names        names of your own: {name in the model: yours}, or one (or None) for each joint in order
         animations         a rigged character, loaded from glTF, whose animations Skeleton.write puts in
-        rest_pose          the file shows the character in the rest pose of those that taught the model
-        symmetric          bones of the left and right side get the same length
+        rest_pose          the pose that the file shows: "mesh" (default), "teachers" (True): the rest pose of those that taught the
+                           model, "t": the same with level arms, "a": with arms 45 degrees below the level
+        symmetric          joints and weights become mirror images where the mesh stands alike on both sides; else bones of both
+                           sides get the same length, with a warning
         max_influences     joints that move one vertex, 1 to 8 (default 4)
         skeleton_template  a skeleton of your own over the landmarks, as JSON text or as a mapping
         fixed_joints       {name in the model or template: (x, y, z)}: joints that are known, as after a correction by hand. They
                            lie there to the bit; the others follow, less the farther along the bones
         ground_root        one more joint, "root", first and above all others, on the ground
+        drop_helpers       without twist bones and helpers (told by their names); the joints above get what they moved
 
         Error: INVALID_ARGUMENT (no template, and the model was not learned of rigged characters; fewer than three
         landmarks found), INVALID_FILE (the template is no JSON); Cancelled.
         """
         character = None if animations is None else handle_of(animations, Mesh, "animations")
         params = skeleton_params(self._joint_names, names=names, joint_names=joint_names, animations=character,
-                                 rest_pose=rest_pose, symmetric=symmetric, max_influences=max_influences, ground_root=ground_root,
+                                 rest_pose=rest_pose, symmetric=symmetric, max_influences=max_influences, ground_root=ground_root, drop_helpers=drop_helpers,
                                  skeleton_template=skeleton_template, fixed_joints=fixed_joints, origin=self._origin)
         handle = self._handle
 

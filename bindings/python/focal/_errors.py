@@ -1,6 +1,8 @@
 """What goes wrong, as exceptions."""
 from __future__ import annotations
 
+from typing import Any
+
 from ._abi import Status
 
 
@@ -18,7 +20,7 @@ class Error(Exception):
         self.message = message
         self.hint = hint
 
-    def __reduce__(self):
+    def __reduce__(self) -> tuple[Any, ...]:
         return type(self), (self.code, self.message, self.hint)
 
 

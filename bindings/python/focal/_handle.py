@@ -3,11 +3,13 @@ from __future__ import annotations
 
 import contextlib
 import threading
-from typing import Any, Iterator
+from typing import Any, Iterator, TypeVar
 
 from ._abi import Status
 from ._errors import Error
 from ._library import call, last_error, library
+
+Made = TypeVar("Made", bound="Handle")
 
 
 class Handle:
@@ -23,7 +25,7 @@ class Handle:
     _borrowing: Any = None  # held while memory of the library is read, and to close
 
     @classmethod
-    def _adopt(cls, pointer: Any, context: Any = None):
+    def _adopt(cls: type[Made], pointer: Any, context: Any = None) -> Made:
         self = cls.__new__(cls)
         self._take(pointer, context)
         return self
@@ -35,12 +37,16 @@ class Handle:
 
     @property
     def _handle(self) -> Any:
-        pointer = self._pointer
+        pointer = self._pointer or self._made_now()
         if pointer is None:
             name = type(self).__name__
             raise Error(Status.INVALID_HANDLE, f"the {name} has been closed",
                         f"keep the {name} open until the last call that uses it")
         return pointer
+
+    def _made_now(self) -> Any:
+        """The handle of one that is made when it is first needed."""
+        return None
 
     @contextlib.contextmanager
     def _borrow(self) -> Iterator[Any]:
@@ -69,7 +75,7 @@ class Handle:
         if pointer is not None:
             call(f"focal_{self._kind}_destroy", pointer)
 
-    def __enter__(self):
+    def __enter__(self: Made) -> Made:
         self._handle
         return self
 
@@ -80,7 +86,7 @@ class Handle:
         with contextlib.suppress(Exception):  # at the end of the process modules may be gone
             self.close()
 
-    def __reduce__(self):
+    def __reduce__(self) -> tuple[Any, ...]:
         raise TypeError(f"a focal.{type(self).__name__} cannot be copied or pickled")
 
     def _facts(self) -> str:

@@ -115,14 +115,14 @@ def last_error(code: int) -> Exception:
     return error_of(code, library().focal_last_error().decode("utf-8", "replace"))
 
 
-def call(name: str, *arguments) -> None:
+def call(name: str, *arguments: Any) -> None:
     """Calls a function that returns focal_status; raises Error."""
     code = getattr(library(), name)(*arguments)
     if code:
         raise last_error(code)
 
 
-def create(name: str, kind: type, *arguments):
+def create(name: str, kind: type[ctypes.Structure], *arguments: Any) -> Any:
     """Calls a function whose last argument receives a handle; gives the handle."""
     out: Any = ctypes.POINTER(kind)()
     call(name, *arguments, ctypes.byref(out))
@@ -141,9 +141,9 @@ def distances() -> list[str]:
 
 def version() -> str:
     """The version of the loaded library, such as "0.1.0"."""
-    return library().focal_version_string().decode()
+    return str(library().focal_version_string().decode())
 
 
 def peak_memory_bytes() -> int:
     """The largest resident memory of this process so far, in bytes; 0 where the system does not tell."""
-    return library().focal_peak_memory_bytes()
+    return int(library().focal_peak_memory_bytes())

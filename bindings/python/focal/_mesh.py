@@ -4,19 +4,17 @@ from __future__ import annotations
 import ctypes
 import operator
 import os
-from typing import Any, Iterable, NamedTuple, Union
+from typing import Any, Iterable, NamedTuple
 
 from . import _abi
 from ._abi import Scenery, Surface
-from ._arrays import block_of, copied, empty, far_origin, moved, result
+from ._arrays import Floats, Numbers, block_of, copied, empty, far_origin, moved, result
 from ._context import Context, context_or_default
 from ._handle import Handle
 from ._library import call, create, descriptors, distances, last_error, library
+from ._pickled import Source, mesh_again, mesh_state, path_state, source_of
 from ._task import Progress, Task, run
-from ._values import SurfacePoint, as_dict, fill, floats, integer, listed, new, path_text, point_of, real
-
-Position = tuple  # x, y, z
-Mark = Union[int, SurfacePoint, Position, None]
+from ._values import Mark, SurfacePoint, as_dict, fill, floats, integer, listed, new, path_text, point_of, real
 
 NO_VERTEX = _abi.FOCAL_NO_VERTEX
 NO_TRIANGLE = _abi.FOCAL_NO_TRIANGLE
@@ -47,7 +45,7 @@ class Part(NamedTuple):
 
 
 class Mesh(Handle):
-    """A surface of triangles, ready to be analysed. It never changes.
+    """A surface of triangles, ready to be analysed. It never changes; it can be pickled.
 
     vertices  (n, 3) numbers, in units of your own; kept as 32-bit floats. 64-bit ones that lie so far from 0 that they
               would lose their shape so (earth-centred coordinates) are moved to 0 first, see origin
@@ -74,6 +72,7 @@ class Mesh(Handle):
     """
 
     _kind = "mesh"
+    _source: Source
     origin: tuple[float, float, float] = (0.0, 0.0, 0.0)
     """What was taken from 64-bit vertices before they were rounded; positions in results have it again, but not those in
     files that are written."""
@@ -85,11 +84,11 @@ class Mesh(Handle):
         block_of(vertices, "vertices", "f", 3)  # refused as they were given
         far = far_origin(vertices)
         if far is not None:
-            self.origin, vertices = far, moved(vertices, tuple(-x for x in far))
+            self.origin, vertices = far, moved(vertices, (-far[0], -far[1], -far[2]))
+        self._source = source_of("arrays", weld=weld, drop_degenerate=drop_degenerate, surface=surface, lenient=lenient,
+                                 keep_scenery=keep_scenery, max_vertices=max_vertices, max_triangles=max_triangles)
         desc, running = _described(vertices, faces), context_or_default(context)
-        params = fill(new(_abi.focal_mesh_params), weld=weld, drop_degenerate=drop_degenerate,
-                      surface=surface, lenient=lenient, keep_scenery=keep_scenery, max_vertices=max_vertices,
-                      max_triangles=max_triangles)
+        params = fill(new(_abi.focal_mesh_params), **self._source.parameters)
         self._take(_made(params, task, "focal_mesh_create", running._handle, ctypes.byref(desc)), running)
 
     @classmethod
@@ -100,11 +99,28 @@ class Mesh(Handle):
         """A character of several parts (body, eyes, clothes) as one mesh: (vertices, faces) of each, in one coordinate system. Vertices
         and triangles are numbered through, part after part; `parts` says where each begins. Parameters and errors as Mesh."""
         descs = [_described(vertices, faces) for vertices, faces in parts]
-        params = fill(new(_abi.focal_mesh_params), weld=weld, drop_degenerate=drop_degenerate, surface=surface,
-                      lenient=lenient, keep_scenery=keep_scenery, max_vertices=max_vertices, max_triangles=max_triangles)
+        source = source_of("parts", weld=weld, drop_degenerate=drop_degenerate, surface=surface, lenient=lenient,
+                           keep_scenery=keep_scenery, max_vertices=max_vertices, max_triangles=max_triangles)
+        params = fill(new(_abi.focal_mesh_params), **source.parameters)
         pointers = (ctypes.POINTER(_abi.focal_mesh_desc) * max(1, len(descs)))(*[ctypes.pointer(one) for one in descs])
         running = context_or_default(context)
-        return cls._adopt(_made(params, task, "focal_mesh_create_parts", running._handle, pointers, len(descs)), running)
+        return cls._from(source, _made(params, task, "focal_mesh_create_parts", running._handle, pointers, len(descs)), running)
+
+    @classmethod
+    def _from(cls, source: Source, pointer: Any, context: Context) -> Mesh:
+        made = cls._adopt(pointer, context)
+        made._source = source
+        return made
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return mesh_again, mesh_state(self)
+
+    def _own_arrays(self) -> tuple[bytes, bytes]:
+        """Vertices and faces as the library has them: floats and 32-bit numbers."""
+        counts = 12 * self.vertex_count, 12 * self.triangle_count
+        with self._borrow() as handle:
+            return (ctypes.string_at(library().focal_mesh_positions(handle), counts[0]),
+                    ctypes.string_at(library().focal_mesh_triangles(handle), counts[1]))
 
     def _facts(self) -> str:
         info = self.info
@@ -140,13 +156,15 @@ class Mesh(Handle):
 
         Error: FILE_NOT_FOUND, IO, INVALID_FILE, UNSUPPORTED, and those of Mesh.
         """
-        params = fill(new(_abi.focal_mesh_params), weld=weld, drop_degenerate=drop_degenerate,
-                      surface=surface, lenient=lenient, keep_scenery=keep_scenery,
-                      allow_external_files=allow_external_files, keep_source_file=keep_source_file,
-                      max_vertices=max_vertices, max_triangles=max_triangles, max_nodes=max_nodes, max_json_bytes=max_json_bytes, max_file_bytes=max_file_bytes,
-                      pose_animation=pose_animation, pose_time=pose_time)
         file, running = path_text(path), context_or_default(context)
-        return cls._adopt(_made(params, task, "focal_mesh_load_gltf", running._handle, file), running)
+        state = path_state(path) if os.path.exists(path) else None
+        source = source_of("path", state, weld=weld, drop_degenerate=drop_degenerate,
+                           surface=surface, lenient=lenient, keep_scenery=keep_scenery,
+                           allow_external_files=allow_external_files, keep_source_file=keep_source_file,
+                           max_vertices=max_vertices, max_triangles=max_triangles, max_nodes=max_nodes, max_json_bytes=max_json_bytes,
+                           max_file_bytes=max_file_bytes, pose_animation=pose_animation, pose_time=pose_time)
+        params = fill(new(_abi.focal_mesh_params), **source.parameters)
+        return cls._from(source, _made(params, task, "focal_mesh_load_gltf", running._handle, file), running)
 
     @classmethod
     def from_bytes(cls, data: Any, *, weld: bool | None = None, drop_degenerate: bool | None = None,
@@ -157,14 +175,14 @@ class Mesh(Handle):
                    pose_animation: str | None = None, pose_time: float | None = None,
                    context: Context | None = None, task: Task | None = None) -> Mesh:
         """The same from the bytes of a file (bytes-like); external files are refused."""
-        params = fill(new(_abi.focal_mesh_params), weld=weld, drop_degenerate=drop_degenerate,
-                      surface=surface, lenient=lenient, keep_scenery=keep_scenery, keep_source_file=keep_source_file,
-                      max_vertices=max_vertices, max_triangles=max_triangles, max_nodes=max_nodes,
-                      max_json_bytes=max_json_bytes, max_file_bytes=max_file_bytes, pose_animation=pose_animation,
-                      pose_time=pose_time)
         memory, running = bytes_of(data), context_or_default(context)
-        return cls._adopt(_made(params, task, "focal_mesh_load_gltf_memory", running._handle, memory, len(memory)),
-                          running)
+        source = source_of("bytes", memory, weld=weld, drop_degenerate=drop_degenerate,
+                           surface=surface, lenient=lenient, keep_scenery=keep_scenery, keep_source_file=keep_source_file,
+                           max_vertices=max_vertices, max_triangles=max_triangles, max_nodes=max_nodes,
+                           max_json_bytes=max_json_bytes, max_file_bytes=max_file_bytes, pose_animation=pose_animation,
+                           pose_time=pose_time)
+        params = fill(new(_abi.focal_mesh_params), **source.parameters)
+        return cls._from(source, _made(params, task, "focal_mesh_load_gltf_memory", running._handle, memory, len(memory)), running)
 
     @property
     def info(self) -> dict[str, Any]:
@@ -179,27 +197,29 @@ class Mesh(Handle):
 
     @property
     def vertex_count(self) -> int:
-        return self.info["vertex_count"]
+        return int(self.info["vertex_count"])
 
     @property
     def triangle_count(self) -> int:
-        return self.info["triangle_count"]
+        return int(self.info["triangle_count"])
 
     @property
     def surface_area(self) -> float:
         """In the square of the mesh's units."""
-        return self.info["surface_area"]
+        return float(self.info["surface_area"])
 
     @property
-    def vertices(self) -> Any:
+    def vertices(self) -> Floats:
         """(vertex_count, 3) floats, a copy."""
         given = self._copied("focal_mesh_positions", "f", self.vertex_count)
-        return moved(given, self.origin) if any(self.origin) else given
+        found: Floats = moved(given, self.origin) if any(self.origin) else given
+        return found
 
     @property
-    def faces(self) -> Any:
+    def faces(self) -> Numbers:
         """(triangle_count, 3) vertex numbers, a copy."""
-        return self._copied("focal_mesh_triangles", "I", self.triangle_count)
+        found: Numbers = self._copied("focal_mesh_triangles", "I", self.triangle_count)
+        return found
 
     def _copied(self, getter: str, code: str, count: int) -> Any:
         with self._borrow() as handle:
@@ -242,7 +262,7 @@ class Mesh(Handle):
         return point_of(out)  # type: ignore[return-value]
 
     def describe(self, vertices: Any, descriptor: _abi.Descriptor | str | int = "si-hks", *,
-                 context: Context | None = None, task: Task | None = None, on_progress: Progress | None = None) -> Any:
+                 context: Context | None = None, task: Task | None = None, on_progress: Progress | None = None) -> Floats:
         """(len(vertices), n) floats: what describes the surroundings of these vertices, by a name of
         focal.descriptors(). Error: INVALID_LANDMARK (no such vertex, or no triangle uses it); Cancelled."""
         chosen = listed(descriptor, descriptors(), "descriptor")
@@ -251,17 +271,19 @@ class Mesh(Handle):
         room = empty("f", wanted.rows * width)
         run(lambda task_handle: call("focal_mesh_describe", running._handle, handle, chosen, wanted.pointer,
                                      wanted.rows, task_handle, room.pointer), task, on_progress)
-        return result(room.owner, width)
+        rows: Floats = result(room.owner, width)
+        return rows
 
     def distances(self, source: Mark, distance: _abi.Distance | str | int = "heat", *, context: Context | None = None,
-                  task: Task | None = None, on_progress: Progress | None = None) -> Any:
+                  task: Task | None = None, on_progress: Progress | None = None) -> Floats:
         """(vertex_count,) floats: from a vertex number or a SurfacePoint, by a name of focal.distances(); infinite
         where no triangle uses the vertex. Error: INVALID_LANDMARK; Cancelled."""
         chosen, running = listed(distance, distances(), "distance"), context_or_default(context)
         place, handle, room = marked_point(self, source, "source"), self._handle, empty("f", self.vertex_count)
         run(lambda task_handle: call("focal_mesh_distances", running._handle, handle, chosen, ctypes.byref(place),
                                      task_handle, room.rows, room.pointer), task, on_progress)
-        return result(room.owner)
+        found: Floats = result(room.owner)
+        return found
 
     def symmetry_plane(self, *, seed: int = 0, context: Context | None = None, task: Task | None = None,
                        on_progress: Progress | None = None) -> SymmetryPlane:
@@ -348,7 +370,7 @@ def marked_point(mesh: Mesh, mark: Mark, name: str) -> _abi.focal_surface_point:
     if mark is None:
         return _abi.focal_surface_point(NO_TRIANGLE)
     if is_number(mark):
-        mark = mesh.point_at_vertex(mark)
+        mark = mesh.point_at_vertex(operator.index(mark))  # type: ignore[arg-type]
     elif _is_position(mark):
         mark = mesh.closest_point(mark)
     return surface_point(mark, name)
@@ -357,7 +379,7 @@ def marked_point(mesh: Mesh, mark: Mark, name: str) -> _abi.focal_surface_point:
 def _described(vertices: Any, faces: Any) -> _abi.focal_mesh_desc:
     positions = block_of(vertices, "vertices", "f", 3)
     indices = block_of(faces, "faces", "I", 3)
-    desc = new(_abi.focal_mesh_desc)
+    desc: _abi.focal_mesh_desc = new(_abi.focal_mesh_desc)
     desc.positions, desc.vertex_count = positions.pointer, positions.rows
     desc.indices, desc.index_count = indices.pointer, 3 * indices.rows
     desc._blocks = positions, indices  # their memory lives as long as the struct

@@ -2,19 +2,21 @@
 from __future__ import annotations
 
 import ctypes
+import itertools
 import os
+import tempfile
 from typing import Any, Mapping, Sequence
 
 from . import _abi
-from ._arrays import empty, result
+from ._arrays import Floats, empty, result
 from ._context import Context, context_or_default
 from ._detection import Detection
 from ._handle import Handle, handle_of
 from ._library import call, create, descriptors, distances, library
-from ._mesh import Mark, Mesh, bytes_of, marked_point
+from ._mesh import Mesh, bytes_of, marked_point
 from ._task import Progress, Task, run
 from ._training_set import TrainingSet
-from ._values import as_dict, choice, fill, listed, new, numbered, path_text
+from ._values import Mark, as_dict, choice, fill, given_of, listed, new, numbered, path_text
 
 
 class Model(Handle):
@@ -96,8 +98,10 @@ class Model(Handle):
                           running)
 
     def _facts(self) -> str:
-        joints = library().focal_model_joint_count(self._handle)
-        return f"{joints} joints" if joints else ""  # to count landmarks the library writes the whole model
+        with self._borrow() as handle:  # to fill its info the library writes the whole model
+            landmarks = next(i for i in itertools.count() if library().focal_model_landmark_name(handle, i) is None)
+            joints = library().focal_model_joint_count(handle)
+        return f"{landmarks} landmarks" + (f", {joints} joints" if joints else "")
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes the model's file, whole or not at all. Error: IO, FILE_NOT_FOUND (no such folder)."""
@@ -111,7 +115,7 @@ class Model(Handle):
         finally:
             library().focal_blob_destroy(blob)
 
-    def __reduce__(self):
+    def __reduce__(self) -> tuple[Any, ...]:
         return Model.from_bytes, (self.to_bytes(),)
 
     @property
@@ -164,28 +168,29 @@ class Model(Handle):
 
         ValueError: a fixed name that the model does not know. Error: NOT_CONVERGED, INVALID_ARGUMENT (also: an analysis made for a model with other parameters); Cancelled.
         """
-        analysed = isinstance(mesh, Analysis)
-        given = mesh._handle if analysed else handle_of(mesh, Mesh, "mesh")
-        function = "focal_model_detect_analysis" if analysed else "focal_model_detect"
-        params = fill(new(_abi.focal_detect_params), quality=quality, sampling_rate=sampling_rate,
-                      max_samples=max_samples, peaks_per_landmark=peaks_per_landmark,
-                      found_confidence=found_confidence, absent_confidence=absent_confidence, keep_votes=keep_votes,
-                      seed=seed)
+        if isinstance(mesh, Analysis):
+            given, surface, function = mesh._handle, mesh._mesh, "focal_model_detect_analysis"
+        else:
+            given, surface, function = handle_of(mesh, Mesh, "mesh"), mesh, "focal_model_detect"
+        given_params = given_of(quality=quality, sampling_rate=sampling_rate, max_samples=max_samples, peaks_per_landmark=peaks_per_landmark,
+                                found_confidence=found_confidence, absent_confidence=absent_confidence, keep_votes=keep_votes, seed=seed)
+        params = fill(new(_abi.focal_detect_params), **given_params)
         handle, names = self._handle, self.joint_names
         if fixed:
-            points = self._fixed(fixed, mesh._mesh if analysed else mesh)
+            given_params["fixed"] = fixed = dict(fixed)
+            points = self._fixed(fixed, surface)
             params.fixed_points, params.fixed_point_count = points, len(points)
 
         def detect(task_handle: Any) -> Detection:
             found = Detection._adopt(create(function, _abi.focal_detection, handle, given, ctypes.byref(params),
                                             task_handle), self._context)
-            found._joint_names, found._origin = names, (mesh._mesh if analysed else mesh).origin
+            found._joint_names, found._origin, found._made_of = names, surface.origin, (self, mesh, given_params)
             return found
 
         return run(detect, task, on_progress)
 
     def regress(self, analysis: Analysis, landmark: str | int, truth: Mark, *, task: Task | None = None,
-                on_progress: Progress | None = None) -> tuple[Any, Any]:
+                on_progress: Progress | None = None) -> tuple[Floats, Floats]:
         """What the regression makes of an analysis: for each sample point the distance to the landmark that follows
         from its descriptor, and the true one to `truth`, a vertex number or a SurfacePoint. In units of
         sqrt(surface area); preset paper: shares of the sample's largest distance."""
@@ -203,20 +208,19 @@ class Model(Handle):
                     absent_confidence: float | None = None, keep_votes: bool | None = None, seed: int | None = None,
                     task: Task | None = None, on_progress: Progress | None = None) -> list[Detection]:
         """detect() on each of many meshes, one a thread: more of them a second than one call after another. All of them
-        or none: an Error tells the number of the mesh that failed."""
+        or none: an Error tells the number of the mesh that failed. Progress counts meshes: on_progress(0.3, "3 of 10 meshes")."""
         handles = [handle_of(mesh, Mesh, "meshes") for mesh in meshes]
-        params = fill(new(_abi.focal_detect_params), quality=quality, sampling_rate=sampling_rate,
-                      max_samples=max_samples, peaks_per_landmark=peaks_per_landmark,
-                      found_confidence=found_confidence, absent_confidence=absent_confidence, keep_votes=keep_votes,
-                      seed=seed)
+        given_params = given_of(quality=quality, sampling_rate=sampling_rate, max_samples=max_samples, peaks_per_landmark=peaks_per_landmark,
+                                found_confidence=found_confidence, absent_confidence=absent_confidence, keep_votes=keep_votes, seed=seed)
+        params = fill(new(_abi.focal_detect_params), **given_params)
         handle, names = self._handle, self.joint_names
-        given = (ctypes.POINTER(_abi.focal_mesh) * max(1, len(handles)))(*handles)
-        found = (ctypes.POINTER(_abi.focal_detection) * max(1, len(handles)))()
+        given: Any = (ctypes.POINTER(_abi.focal_mesh) * max(1, len(handles)))(*handles)
+        found: Any = (ctypes.POINTER(_abi.focal_detection) * max(1, len(handles)))()
         run(lambda task_handle: call("focal_model_detect_many", handle, given, len(handles), ctypes.byref(params),
-                                     task_handle, found), task, on_progress)
+                                     task_handle, found), task, _counted(on_progress, len(handles)))
         detections = [Detection._adopt(one, self._context) for one in found[:len(handles)]]
         for one, mesh in zip(detections, meshes):
-            one._joint_names, one._origin = names, mesh.origin
+            one._joint_names, one._origin, one._made_of = names, mesh.origin, (self, mesh, given_params)
         return detections
 
     def _fixed(self, fixed: Mapping[str, Mark], mesh: Mesh) -> Any:
@@ -246,13 +250,21 @@ class Model(Handle):
 
 
 class Analysis(Handle):
-    """An analysed mesh, from Model.analyse: hand it to Model.detect of many models. It contains the mesh's geometry."""
+    """An analysed mesh, from Model.analyse: hand it to Model.detect of many models. It contains the mesh's geometry; it can be
+    pickled."""
 
     _kind = "analysis"
     _mesh: Mesh  # that was analysed
 
     def __init__(self) -> None:
         raise TypeError("make an Analysis with Model.analyse or Analysis.load")
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "analysis")
+            self.save(path)
+            with open(path, "rb") as file:
+                return _analysis_again, (self._mesh, file.read())
 
     @classmethod
     def load(cls, mesh: Mesh, path: str | os.PathLike[str], *, context: Context | None = None) -> Analysis:
@@ -263,6 +275,24 @@ class Analysis(Handle):
         made._mesh = mesh
         return made
 
+    def _facts(self) -> str:
+        return f"{self._mesh.vertex_count} vertices, {library().focal_analysis_sample_count(self._handle)} samples"
+
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes it to a file of a few MB. Error: IO, FILE_NOT_FOUND (no such folder)."""
         call("focal_analysis_save", self._handle, path_text(path))
+
+
+def _analysis_again(mesh: Mesh, data: bytes) -> Analysis:
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "analysis")
+        with open(path, "wb") as file:
+            file.write(data)
+        return Analysis.load(mesh, path)
+
+
+def _counted(tell: Progress | None, count: int) -> Progress | None:
+    if tell is None:
+        return None
+    told = tell
+    return lambda progress, _: told(progress, f"{round(progress * count)} of {count} meshes")

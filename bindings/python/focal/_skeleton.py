@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Any, Mapping, Sequence
 
 from . import _abi
-from ._arrays import Block, block_of, empty, result
+from ._arrays import Block, Floats, Numbers, block_of, empty, result
 from ._context import Context, context_or_default
 from ._handle import Handle, handle_of
 from ._library import call, create
@@ -84,7 +84,7 @@ class Skeleton(Handle):
         return found
 
     @property
-    def weights(self) -> tuple[Any, Any]:
+    def weights(self) -> tuple[Numbers, Floats]:
         """(joints, weights): for each of the mesh's vertices four joint numbers, (n, 4), heaviest first, and their
         weights, (n, 4) floats that sum to 1; all 0 where no triangle uses the vertex. Eight where rig was asked for
         more than four."""
@@ -105,12 +105,12 @@ class Skeleton(Handle):
     @property
     def verdict(self) -> _abi.Verdict:
         """GOOD, CHECK (some joints may lie wrong) or FAILED (not to be used); warnings say what speaks against it."""
-        return self.info["verdict"]
+        return _abi.Verdict(self.info["verdict"])
 
     @property
     def quality(self) -> float:
         """0..1: what the verdict follows from."""
-        return self.info["quality"]
+        return float(self.info["quality"])
 
     @property
     def warnings(self) -> list[str]:
@@ -140,7 +140,7 @@ def _put_joints(params: _abi.focal_bind_params, joints: Sequence[Joint | Mapping
     params.joint_count = len(rows)
     params.joint_parents = (ctypes.c_int32 * max(1, len(rows)))(*[integer(row["parent"], "parent") for row in rows])
     params.joint_moves = (ctypes.c_int32 * max(1, len(rows)))(*[bool(row.get("moves", True)) for row in rows])
-    start = tuple(-x for x in origin)
+    start = (-origin[0], -origin[1], -origin[2])
     blocks = [block_of([placed(row["position"], start) for row in rows], "position", "f", 3),
               block_of([tuple(row.get("rotation") or (0, 0, 0, 1)) for row in rows], "rotation", "f", 4),
               block_of([placed(row.get("tip") or (math.nan,) * 3, start) for row in rows], "tip", "f", 3)]
@@ -156,7 +156,9 @@ def skeleton_params(known: list[str], *, names: Any, joint_names: Any, skeleton_
     if skeleton_template is not None and not isinstance(skeleton_template, str):
         skeleton_template = json.dumps(_mapping(skeleton_template, "skeleton_template"))
     animations = fields.pop("animations")
-    params = fill(new(_abi.focal_skeleton_params), names=names, skeleton_template=skeleton_template, **fields)
+    if fields.get("rest_pose") is not None:
+        fields["rest_pose"] = _pose(fields["rest_pose"])
+    params: _abi.focal_skeleton_params = fill(new(_abi.focal_skeleton_params), names=names, skeleton_template=skeleton_template, **fields)
     if animations is not None:
         params.animations = animations
     if fixed_joints is not None:
@@ -169,6 +171,14 @@ def skeleton_params(known: list[str], *, names: Any, joint_names: Any, skeleton_
         params.joint_names = (ctypes.c_char_p * len(texts))(*texts)
         params.joint_name_count = len(texts)
     return params
+
+
+def _pose(value: Any) -> _abi.Pose:
+    if isinstance(value, bool):
+        return _abi.Pose.OF_TEACHERS if value else _abi.Pose.OF_MESH
+    if isinstance(value, str) and value.lower() in ("mesh", "teachers"):
+        value = f"of_{value}"
+    return choice(_abi.Pose, value, "rest_pose")
 
 
 def _template_joints(template: bytes) -> list[str]:
@@ -187,7 +197,7 @@ def _fixed_places(known: list[str], fixed: Mapping[str, Any], origin: tuple[floa
     given = block_of([tuple(fixed.get(name, unknown)) for name in known], "fixed_joints", "f", 3)  # refused as they were given
     if not any(origin):
         return given
-    places = [placed(fixed.get(name, unknown), tuple(-x for x in origin)) for name in known]
+    places = [placed(fixed.get(name, unknown), (-origin[0], -origin[1], -origin[2])) for name in known]
     return block_of(places, "fixed_joints", "f", 3)
 
 

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import threading
-from typing import Any, Callable, TypeVar
+from typing import Any, Callable, TypeVar, cast
 
 from . import _abi
 from ._handle import Handle
@@ -26,6 +26,9 @@ class Task(Handle):
     def __init__(self) -> None:
         self._take(create("focal_task_create", _abi.focal_task))
 
+    def _facts(self) -> str:
+        return "cancelled" if self.cancelled else f"{self.progress:.0%} {self.stage}".rstrip()
+
     def cancel(self) -> None:
         """The call that runs with it raises Cancelled within about 0.1 s."""
         call("focal_task_cancel", self._handle)
@@ -37,7 +40,7 @@ class Task(Handle):
     @property
     def progress(self) -> float:
         """0..1; never falls during a call."""
-        return library().focal_task_progress(self._handle)
+        return float(library().focal_task_progress(self._handle))
 
     @property
     def stage(self) -> str:
@@ -64,7 +67,7 @@ def run(work: Callable[[Any], Result], task: Task | None, on_progress: Progress 
     try:
         if on_progress is None and threading.current_thread() is not threading.main_thread():
             return work(used._handle)
-        return _Watched(work, used).wait(on_progress)
+        return cast(Result, _Watched(work, used).wait(on_progress))
     finally:
         if task is None:
             used.close()

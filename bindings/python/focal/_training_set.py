@@ -10,8 +10,8 @@ from . import _abi
 from ._context import Context, context_or_default
 from ._handle import Handle, handle_of
 from ._library import call, create, library
-from ._mesh import NO_VERTEX, Mark, Mesh, is_number, marked_point
-from ._values import integer, text
+from ._mesh import NO_VERTEX, Mesh, is_number, marked_point
+from ._values import Mark, integer, text
 
 
 class TrainingSet(Handle):
@@ -35,6 +35,10 @@ class TrainingSet(Handle):
         self._take(create("focal_training_set_create", _abi.focal_training_set, running._handle,
                           (ctypes.c_char_p * len(texts))(*texts) if texts else None, len(texts)), running)
 
+    def _facts(self) -> str:
+        kind = f"{len(self._names)} landmarks" if self._names else "rigged characters"
+        return f"{kind}, {self.mesh_count} meshes"
+
     @property
     def landmark_names(self) -> list[str]:
         return list(self._names)
@@ -42,7 +46,7 @@ class TrainingSet(Handle):
     @property
     def mesh_count(self) -> int:
         """Meshes added so far."""
-        return library().focal_training_set_mesh_count(self._handle)
+        return int(library().focal_training_set_mesh_count(self._handle))
 
     def add(self, mesh: Mesh, marks: Mapping[str, Mark] | Sequence[Mark]) -> None:
         """Adds a mesh with its marks: {name: mark}, or marks in the order of landmark_names.

@@ -6,7 +6,7 @@ import numbers
 import operator
 import os
 from enum import IntEnum
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, NamedTuple, TypeVar, Union
 
 from . import _abi
 from ._library import call
@@ -20,7 +20,7 @@ _RANGES = {
 }
 # By field; 0..1 the quality of a skeleton is a double, and stays one.
 _ENUMS = {"preset": _abi.Preset, "backend": _abi.Backend, "quality": _abi.Quality, "surface": _abi.Surface,
-          "verdict": _abi.Verdict}
+          "verdict": _abi.Verdict, "rest_pose": _abi.Pose}
 
 
 class SurfacePoint(NamedTuple):
@@ -28,6 +28,10 @@ class SurfacePoint(NamedTuple):
 
     triangle: int
     barycentric: tuple[float, float, float]
+
+
+Position = tuple[float, float, float]
+Mark = Union[int, SurfacePoint, Position, None]  # of a landmark: a vertex number, a point, the nearest point, absent
 
 
 def text(value: Any, name: str) -> bytes:
@@ -109,6 +113,11 @@ def new(kind: type) -> Any:
     struct = kind()
     call(f"{kind.__name__}_init", ctypes.byref(struct), ctypes.sizeof(struct))
     return struct
+
+
+def given_of(**fields: Any) -> dict[str, Any]:
+    """Those that are not None."""
+    return {name: value for name, value in fields.items() if value is not None}
 
 
 def fill(struct: Any, **fields: Any) -> Any:
