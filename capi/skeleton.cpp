@@ -257,6 +257,7 @@ focal_status focal_skeleton_create(const focal_detection* detection, const focal
                           : transfer_rig(found, execution, how.symmetric != 0, how.max_influences, fixed);
     // Before the joints are renamed: names identify pairs of joints, and those of the model.
     const RigMeasures measures = rig_measures(found, object->rig);
+    if (!by_hand) calibrate_confidence(rig_quality(measures), fixed, object->rig);
     const std::vector<size_t> numbers = kept_joints(how, object->rig);
     if (how.rest_pose != FOCAL_POSE_OF_MESH) object->shown_pose = shown_pose(how.rest_pose, object->rig);
     if (character)
@@ -268,7 +269,6 @@ focal_status focal_skeleton_create(const focal_detection* detection, const focal
           "animations of the file move its former skeleton, which the mesh does not follow any more: " +
           listed(idle) + "; --animations (animations) plays them on the new one");
     judge(*object, measures);
-    if (!by_hand) calibrate_confidence(object->quality, fixed, object->rig);
     if (how.ground_root) put_root(how, *object);
     object->context->report_warnings(object->rig.warnings);
     *out_skeleton = publish(object);
