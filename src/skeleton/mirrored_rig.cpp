@@ -11,7 +11,7 @@
 namespace focal {
 namespace {
 
-constexpr double same_place = 1e-4;  // of the mesh's diagonal
+constexpr double same_place = 5e-4;  // of the mesh's diagonal
 constexpr double least_share = 0.5;  // of the vertices that have a partner
 constexpr double middle_reach =
     0.03;  // of the diagonal: joints without a side that lie nearer to the plane come into it
@@ -203,6 +203,31 @@ double diagonal(const MatrixX3& positions) {
   return (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).norm();
 }
 
+// Where to look for the plane: the one given, and those that files are modelled about, where they lead from side to side as it does.
+std::vector<MirrorPlane> starts(const MatrixX3& positions, const MirrorPlane& near) {
+  std::vector<MirrorPlane> all = {near};
+  for (const int axis : {0, 1, 2}) {
+    if (std::abs(near.normal[axis]) < 0.7) continue;
+    const auto along = positions.col(axis);
+    for (const double offset : {0.0, (along.minCoeff() + along.maxCoeff()) / 2})
+      all.push_back({Vector3::Unit(axis), offset});
+  }
+  return all;
+}
+
+MirroredVertices partners(const MatrixX3& positions, const NearestVertex& tree, const MirrorPlane& plane,
+                          double reach) {
+  MirroredVertices result{plane, std::vector<int32_t>(static_cast<size_t>(positions.rows()), -1)};
+  size_t count = 0;
+  for (Eigen::Index v = 0; v < positions.rows(); ++v) {
+    const auto [partner, squared] = tree.nearest(plane(positions.row(v).transpose()));
+    if (squared > reach * reach) continue;
+    result.partner[static_cast<size_t>(v)] = partner, ++count;
+  }
+  result.share = static_cast<double>(count) / static_cast<double>(positions.rows());
+  return result;
+}
+
 std::vector<Matrix4*> binds_of(std::vector<Joint>& joints) {
   std::vector<Matrix4*> binds;
   for (Joint& joint : joints) binds.push_back(&joint.bind);
@@ -233,19 +258,16 @@ MirroredVertices mirrored_vertices(const MatrixX3& positions, const MirrorPlane&
   std::vector<int32_t> places;
   for (size_t v = 0; v < first.size(); ++v)
     if (first[v] == static_cast<int32_t>(v)) places.push_back(first[v]);
-  MirroredVertices result{near, std::vector<int32_t>(first.size(), -1)};
-  if (places.empty() || !(size > 0)) return result;
+  MirroredVertices best{near, std::vector<int32_t>(first.size(), -1)};
+  if (places.empty() || !(size > 0)) return best;
   const NearestVertex tree(positions, places);
-  result.plane = settled(positions, tree, near, size);
-  size_t count = 0;
-  for (size_t v = 0; v < first.size(); ++v) {
-    const auto [partner, squared] =
-        tree.nearest(result.plane(positions.row(static_cast<Eigen::Index>(v)).transpose()));
-    if (squared > same_place * size * same_place * size) continue;
-    result.partner[v] = partner, ++count;
+  for (const MirrorPlane& start : starts(positions, near)) {
+    MirroredVertices found =
+        partners(positions, tree, settled(positions, tree, start, size), same_place * size);
+    if (found.share > best.share) best = std::move(found);
+    if (best.share >= least_share) break;
   }
-  result.share = static_cast<double>(count) / static_cast<double>(first.size());
-  return result;
+  return best;
 }
 
 void make_symmetric(const TriangleMesh& mesh, const FixedJoints& fixed, CharacterRig& character) {
