@@ -74,7 +74,7 @@ tell_rigs() {
 tell_landmarks() {
   mean=$(value mean_edges "$out/landmarks.eval.json")
   flips=$(value flipped_meshes "$out/landmarks.eval.json")
-  echo "  mean error $mean edges of the mesh, flipped left/right: $flips"
+  awk -v m="$mean" -v f="$flips" 'BEGIN { printf "  mean error %.2f edges of the mesh, flipped left/right: %s\n", m, f }'
   awk -v m="$mean" -v w="$worst_mean" -v f="$flips" 'BEGIN { exit !(m != "" && m + 0 <= w && f + 0 == 0) }'
 }
 

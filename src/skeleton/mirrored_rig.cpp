@@ -11,7 +11,7 @@
 namespace focal {
 namespace {
 
-constexpr double same_place = 1e-4;  // of the mesh's diagonal
+constexpr double same_place = 5e-4;  // of the mesh's diagonal
 constexpr double least_share = 0.5;  // of the vertices that have a partner
 constexpr double middle_reach =
     0.03;  // of the diagonal: joints without a side that lie nearer to the plane come into it
@@ -27,11 +27,11 @@ Vector3 main_direction(const std::vector<Vector3>& ways) {
   return Eigen::SelfAdjointEigenSolver<Matrix3>(sum).eigenvectors().col(2);
 }
 
-// An axis and a plane through 0 are what is meant where they are as good: mirror images have the same digits then.
+// The plane across an axis, through 0, that may be what is meant where a plane lies near it: mirror images have the same digits then.
 MirrorPlane snapped(MirrorPlane plane, double size) {
   Eigen::Index axis = 0;
-  if (plane.normal.cwiseAbs().maxCoeff(&axis) > 1 - 1e-8) plane.normal = Vector3::Unit(axis);
-  if (std::abs(plane.offset) < 1e-5 * size) plane.offset = 0;
+  if (plane.normal.cwiseAbs().maxCoeff(&axis) > 1 - 1e-6) plane.normal = Vector3::Unit(axis);
+  if (std::abs(plane.offset) < 1e-3 * size) plane.offset = 0;
   return plane;
 }
 
@@ -69,7 +69,7 @@ MirrorPlane settled(const MatrixX3& positions, const NearestVertex& near, Mirror
   const auto count = static_cast<size_t>(positions.rows());
   const size_t step = std::max<size_t>(1, count / most_searched);
   double reach = 0.05 * size;
-  for (int round = 0; round < 12; ++round, reach = std::max(reach / 2, 10 * same_place * size)) {
+  for (int round = 0; round < 12; ++round, reach = std::max(reach / 2, same_place * size)) {
     std::vector<std::pair<Vector3, Vector3>> pairs;
     for (size_t v = 0; v < count; v += step) {
       const Vector3 place = positions.row(static_cast<Eigen::Index>(v)).transpose();
@@ -79,7 +79,7 @@ MirrorPlane settled(const MatrixX3& positions, const NearestVertex& near, Mirror
     if (pairs.size() < 3) break;
     plane = plane_between(pairs);
   }
-  return snapped(plane, size);
+  return plane;
 }
 
 // What stands for which turn on the other side: their axes are mirrored, and one of them or all three reversed. Which, the turns tell.
@@ -203,6 +203,31 @@ double diagonal(const MatrixX3& positions) {
   return (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).norm();
 }
 
+// Where to look for the plane: the one given, and those that files are modelled about, where they lead from side to side as it does.
+std::vector<MirrorPlane> starts(const MatrixX3& positions, const MirrorPlane& near) {
+  std::vector<MirrorPlane> all = {near};
+  for (const int axis : {0, 1, 2}) {
+    if (std::abs(near.normal[axis]) < 0.7) continue;
+    const auto along = positions.col(axis);
+    for (const double offset : {0.0, (along.minCoeff() + along.maxCoeff()) / 2})
+      all.push_back({Vector3::Unit(axis), offset});
+  }
+  return all;
+}
+
+MirroredVertices partners(const MatrixX3& positions, const NearestVertex& tree, const MirrorPlane& plane,
+                          double reach) {
+  MirroredVertices result{plane, std::vector<int32_t>(static_cast<size_t>(positions.rows()), -1)};
+  size_t count = 0;
+  for (Eigen::Index v = 0; v < positions.rows(); ++v) {
+    const auto [partner, squared] = tree.nearest(plane(positions.row(v).transpose()));
+    if (squared > reach * reach) continue;
+    result.partner[static_cast<size_t>(v)] = partner, ++count;
+  }
+  result.share = static_cast<double>(count) / static_cast<double>(positions.rows());
+  return result;
+}
+
 std::vector<Matrix4*> binds_of(std::vector<Joint>& joints) {
   std::vector<Matrix4*> binds;
   for (Joint& joint : joints) binds.push_back(&joint.bind);
@@ -233,19 +258,18 @@ MirroredVertices mirrored_vertices(const MatrixX3& positions, const MirrorPlane&
   std::vector<int32_t> places;
   for (size_t v = 0; v < first.size(); ++v)
     if (first[v] == static_cast<int32_t>(v)) places.push_back(first[v]);
-  MirroredVertices result{near, std::vector<int32_t>(first.size(), -1)};
-  if (places.empty() || !(size > 0)) return result;
+  MirroredVertices best{near, std::vector<int32_t>(first.size(), -1)};
+  if (places.empty() || !(size > 0)) return best;
   const NearestVertex tree(positions, places);
-  result.plane = settled(positions, tree, near, size);
-  size_t count = 0;
-  for (size_t v = 0; v < first.size(); ++v) {
-    const auto [partner, squared] =
-        tree.nearest(result.plane(positions.row(static_cast<Eigen::Index>(v)).transpose()));
-    if (squared > same_place * size * same_place * size) continue;
-    result.partner[v] = partner, ++count;
+  for (const MirrorPlane& start : starts(positions, near)) {
+    const MirrorPlane plane = settled(positions, tree, start, size);
+    MirroredVertices found = partners(positions, tree, plane, same_place * size);
+    MirroredVertices plain = partners(positions, tree, snapped(plane, size), same_place * size);
+    if (plain.share >= 0.99 * found.share) found = std::move(plain);
+    if (found.share > best.share) best = std::move(found);
+    if (best.share >= least_share) break;
   }
-  result.share = static_cast<double>(count) / static_cast<double>(first.size());
-  return result;
+  return best;
 }
 
 void make_symmetric(const TriangleMesh& mesh, const FixedJoints& fixed, CharacterRig& character) {
@@ -268,7 +292,7 @@ void make_symmetric(const TriangleMesh& mesh, const FixedJoints& fixed, Characte
 void make_rest_symmetric(CharacterRig& character) {
   if (character.rest.empty()) return;
   const std::vector<int32_t> other = other_sides(character.rig.joints);
-  const MirrorPlane plane = snapped(plane_of_joints(character.rest, other), 0);
+  const MirrorPlane plane = plane_of_joints(character.rest, other);
   Mirror mirror{plane, other, std::vector<double>(other.size(), 1), std::numeric_limits<double>::infinity()};
   std::vector<Matrix4*> frames;
   for (Matrix4& frame : character.rest) frames.push_back(&frame);

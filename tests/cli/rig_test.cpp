@@ -272,6 +272,25 @@ TEST_CASE("rig: a pinned joint lies where it is put") {
   check_fails(rig + " --pin head=0,0", "head=0,0");
 }
 
+TEST_CASE("rig: the pose that the file shows, and both sides alike") {
+  const ScratchFolder scratch;
+  const std::string rig = "rig " + humanoids().model() + " " + humanoids().mesh() + " --keep-failed -o ";
+  const auto written = [&](const std::string& options) {
+    focal_json(rig + (scratch / "out.glb") + options);
+    return focal_cli::read_text_file(scratch / "out.glb");
+  };
+  const std::string as_it_is = written(""), rest = written(" --pose teachers"), t = written(" --pose t");
+  CHECK(written(" --pose mesh") == as_it_is);
+  CHECK(written(" --rest-pose") == rest);
+  CHECK((rest != as_it_is && t != rest && written(" --pose a") != t));
+  CHECK(written(" --drop-helpers") == as_it_is);  // the sample has none
+  CHECK(written(" --symmetric") != as_it_is);
+  const std::string rigged = scratch / "out.glb";
+  check_fails("rig --keep-skeleton " + rigged + " -o " + (scratch / "b.glb") + " --pose t", "--pose");
+  check_fails("rig --keep-skeleton " + rigged + " -o " + (scratch / "b.glb") + " --drop-helpers",
+              "--drop-helpers");
+}
+
 TEST_CASE("stock models: used by name, listed, and named in the first error") {
   const ScratchFolder scratch;
   const std::string copy = scratch / "models/tiny.focal";

@@ -6,16 +6,18 @@
 using namespace focal;
 
 TEST_CASE("helpers of several conventions are told from the bones of a body") {
-  for (const char* name : {"upperarm_twist_01_l", "Bip001 LForeTwist", "CC_Base_L_ElbowShareBone", "lThighTwist", "LeftForeArmRoll",
-                           "elbow_helper.R", "KneeCorrective_L"})
+  for (const char* name : {"upperarm_twist_01_l", "Bip001 LForeTwist", "CC_Base_L_ElbowShareBone",
+                           "lThighTwist", "LeftForeArmRoll", "elbow_helper.R", "KneeCorrective_L"})
     CHECK(is_helper_bone(name));
-  for (const char* name : {"upperarm_l", "Bip001 L Forearm", "lThighBend", "mixamorig:LeftArm", "troll", "tail"})
+  for (const char* name :
+       {"upperarm_l", "Bip001 L Forearm", "lThighBend", "mixamorig:LeftArm", "troll", "tail"})
     CHECK(!is_helper_bone(name));
 }
 
 TEST_CASE("the joints above get what helpers moved, and what hung on them") {
   CharacterRig character;
-  const std::pair<const char*, int32_t> bones[] = {{"hips", -1}, {"thigh", 0}, {"thigh_twist_01", 1}, {"thigh_twist_02", 2}, {"calf", 3}};
+  const std::pair<const char*, int32_t> bones[] = {
+      {"hips", -1}, {"thigh", 0}, {"thigh_twist_01", 1}, {"thigh_twist_02", 2}, {"calf", 3}};
   for (const auto& [name, parent] : bones) {
     character.rig.joints.push_back({name, parent});
     character.rig.joints.back().bind(0, 3) = static_cast<double>(character.tip.size());

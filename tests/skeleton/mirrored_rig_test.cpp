@@ -1,9 +1,9 @@
 // Rigs of bodies that stand alike on both sides: mirror images to the bit.
 #include "skeleton/mirrored_rig.h"
 
-#include <Eigen/Geometry>
 #include <doctest/doctest.h>
 
+#include <Eigen/Geometry>
 #include <random>
 
 using namespace focal;
@@ -43,7 +43,9 @@ struct Lopsided {
 
   void add(const std::string& name, int32_t parent, const Vector3& place) {
     Joint joint{name, parent};
-    joint.bind.topLeftCorner<3, 3>() = Eigen::Quaterniond::FromTwoVectors(Vector3::UnitX(), Vector3::UnitX() + 0.2 * any()).toRotationMatrix();
+    joint.bind.topLeftCorner<3, 3>() =
+        Eigen::Quaterniond::FromTwoVectors(Vector3::UnitX(), Vector3::UnitX() + 0.2 * any())
+            .toRotationMatrix();
     joint.bind.topRightCorner<3, 1>() = place;
     character.rig.joints.push_back(joint);
     character.tip.push_back(place + 0.1 * any());
@@ -77,8 +79,11 @@ TEST_CASE("joints and weights of both sides become mirror images to the bit") {
     const Vector3 one = place_of(joints[left]), other = place_of(joints[left + 1]);
     CHECK(one == Vector3(-other[0], other[1], other[2]));
     CHECK((one - place_of(before.character.rig.joints[left])).norm() < 0.03);
-    CHECK(body.character.tip[left] == Vector3(-body.character.tip[left + 1][0], body.character.tip[left + 1][1], body.character.tip[left + 1][2]));
-    const Matrix3 turn = joints[left].bind.topLeftCorner<3, 3>(), image = joints[left + 1].bind.topLeftCorner<3, 3>();
+    CHECK(body.character.tip[left] == Vector3(-body.character.tip[left + 1][0],
+                                              body.character.tip[left + 1][1],
+                                              body.character.tip[left + 1][2]));
+    const Matrix3 turn = joints[left].bind.topLeftCorner<3, 3>(),
+                  image = joints[left + 1].bind.topLeftCorner<3, 3>();
     CHECK(turn.determinant() == doctest::Approx(1));
     CHECK(image.determinant() == doctest::Approx(1));
     const Matrix3 mirror = Vector3(-1, 1, 1).asDiagonal();
@@ -102,12 +107,14 @@ TEST_CASE("joints and weights of both sides become mirror images to the bit") {
 TEST_CASE("the plane is found where the body is turned and stands elsewhere") {
   const MirrorPlane truth{Vector3(2, 0.3, -1).normalized(), 3.5};
   Lopsided body(truth);
-  const MirroredVertices found = mirrored_vertices(body.mesh.positions, {Vector3(2, 0.35, -0.95).normalized(), 3.48});
+  const MirroredVertices found =
+      mirrored_vertices(body.mesh.positions, {Vector3(2, 0.35, -0.95).normalized(), 3.48});
   CHECK(found.share == 1);
   CHECK(std::abs(found.plane.normal.dot(truth.normal)) == doctest::Approx(1).epsilon(1e-9));
   make_symmetric(body.mesh, {}, body.character);
   const auto& joints = body.character.rig.joints;
-  for (const int left : {2, 4}) CHECK((place_of(joints[left]) - truth(place_of(joints[left + 1]))).norm() < 1e-5);
+  for (const int left : {2, 4})
+    CHECK((place_of(joints[left]) - truth(place_of(joints[left + 1]))).norm() < 1e-5);
 }
 
 TEST_CASE("a fixed joint stays to the bit, the other side follows it") {
@@ -122,12 +129,14 @@ TEST_CASE("a fixed joint stays to the bit, the other side follows it") {
 
 TEST_CASE("a body that does not stand alike on both sides gets bones of the same lengths, and that is told") {
   Lopsided body{{Vector3::UnitX(), 0}};
-  for (int v = 0; v < body.mesh.positions.rows(); v += 2) body.mesh.positions.row(v) += 0.2 * body.any().transpose();
+  for (int v = 0; v < body.mesh.positions.rows(); v += 2)
+    body.mesh.positions.row(v) += 0.2 * body.any().transpose();
   const auto before = body.character.rig.influences;
   make_symmetric(body.mesh, {}, body.character);
   REQUIRE(body.character.warnings.size() == 1);
   CHECK(body.character.warnings[0].find("does not stand alike on both sides") != std::string::npos);
-  for (size_t v = 0; v < before.size(); ++v) CHECK(row_of(before[v]) == row_of(body.character.rig.influences[v]));
+  for (size_t v = 0; v < before.size(); ++v)
+    CHECK(row_of(before[v]) == row_of(body.character.rig.influences[v]));
   const auto& joints = body.character.rig.joints;
   const auto length = [&](int j) { return (place_of(joints[j]) - place_of(joints[1])).norm(); };
   CHECK(length(2) == doctest::Approx(length(3)));
@@ -140,7 +149,8 @@ TEST_CASE("a rest pose becomes alike on both sides, too") {
   const auto& rest = body.character.rest;
   Vector3 between[2];
   for (const int i : {0, 1}) {
-    const Vector3 left = rest[2 + 2 * i].topRightCorner<3, 1>(), right = rest[3 + 2 * i].topRightCorner<3, 1>();
+    const Vector3 left = rest[2 + 2 * i].topRightCorner<3, 1>(),
+                  right = rest[3 + 2 * i].topRightCorner<3, 1>();
     between[i] = (left - right).normalized();
   }
   CHECK(std::abs(between[0].dot(between[1])) == doctest::Approx(1).epsilon(1e-9));
