@@ -64,7 +64,7 @@ def prefixes(case):
 
 def parented(case):
     lab = case.lab
-    scene, _ = lab.rig(lab.model("robot", case.file("robot.glb")), lab.character(12))
+    scene, _ = lab.rig(lab.quick("robot", case.file("robot.glb")), lab.character(12))
     shares = []
     for _, _, points, weights in scene.shown():
         top = points[:, 1] > points[:, 1].max() - 0.15
