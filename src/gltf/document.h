@@ -134,7 +134,8 @@ class GltfDocument {
   // Throws invalid_argument (a rig of another mesh, more than 65,536 joints, not finite).
   void add_skin(std::span<GltfPrimitive> primitives, const GltfRig& rig);
 
-  // Other weights for the primitives that have a skin; nodes, skins and bind matrices stay. rig: of rig() with other influences. What a
+  // Other weights for the primitives that have a skin; nodes, skins and bind matrices stay (but where bind matrices make
+  // no shape, the primitive is written as it is shown, and has a copy of its skin that is bound so). rig: of rig() with other influences. What a
   // joint moves that a primitive's skin lacks goes to the nearest joint above it that the skin has, or to the other joints of the vertex. A vertex
   // without weights is moved by the first joint of its skin.
   void replace_weights(std::span<const GltfPrimitive> primitives, const Rig& rig);

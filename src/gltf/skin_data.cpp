@@ -19,17 +19,26 @@ std::vector<float> single(const RowMatrix& rows) {
   return values;
 }
 
+// glTF wants the last row of a bind matrix to be exact.
+void append_affine(Matrix4 matrix, std::vector<float>& values) {
+  matrix.row(3) << 0, 0, 0, 1;
+  for (const double x : matrix.reshaped()) values.push_back(static_cast<float>(x));
+}
+
 }  // namespace
 
 void SkinData::begin() { writer_.emplace(root_, container_.bin, container_.binary); }
 
 size_t SkinData::add_inverse_binds(const Matrix4& world_transform) {
   std::vector<float> values;
-  for (const Joint& joint : rig_.rig->joints) {
-    Matrix4 inverse = joint.bind.inverse() * world_transform;
-    inverse.row(3) << 0, 0, 0, 1;
-    for (const double x : inverse.reshaped()) values.push_back(static_cast<float>(x));
-  }
+  for (const Joint& joint : rig_.rig->joints) append_affine(joint.bind.inverse() * world_transform, values);
+  return writer_->add(values, 16);
+}
+
+size_t SkinData::add_binds_as_shown(const Json& joints) {
+  const std::vector<Matrix4> world = world_transforms(node_tree(view_.model));
+  std::vector<float> values;
+  for (const Json& joint : joints) append_affine(world[joint.get<size_t>()].inverse(), values);
   return writer_->add(values, 16);
 }
 

@@ -17,6 +17,7 @@ class SkinData {
 
   void begin();
   size_t add_inverse_binds(const Matrix4& world_transform);  // the accessor
+  size_t add_binds_as_shown(const OrderedJson& joints);      // of a skin's nodes where they stand in the file
   // The rig's weights in the place of those that the primitive has.
   void add_weights(const GltfPrimitive& primitive);
   // Of a primitive that its joints placed: positions, normals, tangents and morph targets as they are shown.

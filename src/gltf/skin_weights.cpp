@@ -1,4 +1,4 @@
-// Other weights for the skins that a file has: joints, matrices and all else stay.
+// Other weights for the skins that a file has: joints and all else stay, bind matrices too where they make a shape.
 #include <algorithm>
 #include <map>
 
@@ -53,6 +53,30 @@ Rig in_numbers_of_skins(OrderedJson& root, std::span<const GltfPrimitive> primit
   return result;
 }
 
+// Where bind matrices make no shape, only the file's own weights hold the mesh together. For others its vertices are written as they are
+// shown, and a copy of its skin is bound so; what else wears the skin keeps it.
+class BindsAsShown {
+ public:
+  BindsAsShown(OrderedJson& root, SkinData& data) : root_(root), data_(data) {}
+
+  void put(const GltfPrimitive& primitive) {
+    data_.place_vertices(primitive);
+    const auto [copy, is_new] = copies_.try_emplace(primitive.skin);
+    if (is_new) {
+      copy->second = append_copy(root_, "skins", static_cast<size_t>(primitive.skin));
+      OrderedJson& skin = root_["skins"][copy->second];
+      const size_t matrices = data_.add_binds_as_shown(skin["joints"]);
+      at(root_["skins"][copy->second], "inverseBindMatrices") = matrices;
+    }
+    at(root_["nodes"][static_cast<size_t>(primitive.node)], "skin") = copy->second;
+  }
+
+ private:
+  OrderedJson& root_;
+  SkinData& data_;
+  std::map<int32_t, size_t> copies_;  // by the skin of the file
+};
+
 }  // namespace
 
 void GltfDocument::replace_weights(std::span<const GltfPrimitive> primitives, const Rig& rig) {
@@ -61,8 +85,12 @@ void GltfDocument::replace_weights(std::span<const GltfPrimitive> primitives, co
   const GltfRig given{&of_skins, {}};
   SkinData data(edited.document.root(), given, opened_->view, opened_->buffers(), opened_->container);
   data.begin();
-  for (const GltfPrimitive& primitive : primitives)
-    if (has_skin(primitive)) data.add_weights(primitive);
+  BindsAsShown binds(edited.document.root(), data);
+  for (const GltfPrimitive& primitive : primitives) {
+    if (!has_skin(primitive)) continue;
+    if (primitive.is_posed) binds.put(primitive);
+    data.add_weights(primitive);
+  }
   edited.bin = data.finish();
 }
 

@@ -23,7 +23,7 @@ enum class AnalysedSurface : int32_t {
 
 struct PrepareParams {
   AnalysedSurface analysed = AnalysedSurface::automatic;
-  bool weld = true;             // merge vertices of equal position, and borders that nearly meet (see stitch.h)
+  bool weld = true;  // merge vertices of equal position, and borders that nearly meet (see stitch.h)
   bool drop_degenerate = true;  // drop triangles with a repeated corner, and repeated triangles
   // Leave out triangles with a NaN or infinite corner or an index out of range, instead of refusing the mesh.
   bool lenient = false;

@@ -9,8 +9,9 @@ RIGHT, KNOWN, WRONG = "right", "known miss", "WRONG"
 
 
 class Lab:
-    def __init__(self, focal, cases, characters, data, out, models):
-        self.command, self.cases, self.characters, self.data, self.out = focal, cases, characters, data, out
+    def __init__(self, focal, quick_model, cases, characters, data, out, models):
+        self.command, self.quick_model, self.cases, self.characters = focal, quick_model, cases, characters
+        self.data, self.out = data, out
         self.model_folder = models or self.result("models", "")
         self.results = []  # (case, what, figure, state)
         self.written = []  # (file, input, how): for tests/viewers/check.mjs
@@ -41,24 +42,28 @@ class Lab:
 
     # --- models ---
 
-    def model(self, name, *characters, options=("--eigenpairs", 40, "--trees", 3, "--proxy", 500)):
-        """Of rigged characters; the options make a quick one, of which no more is asked than that it knows the skeleton."""
-        return self.trained(name, "--rigs", *characters, *options)
+    def model(self, name, *characters):
+        """Of rigged characters, as the command makes it."""
+        return self.trained(name, lambda path: self.report("train", "--rigs", *characters, "-o", path))
 
-    def trained(self, name, *arguments):
+    def quick(self, name, *characters):
+        """The same in a second; no more is asked of it than that it knows the skeleton."""
+        return self.trained(name, lambda path: subprocess.run([self.quick_model, path, *characters], check=True))
+
+    def trained(self, name, train):
         path = os.path.join(self.model_folder, name + ".focal")
         if not os.path.exists(path):
-            self.report("train", "-o", path, *arguments)
+            train(path)
         return path
 
     def taught(self):
         """RIGS.focal of the cases: the first five sample humanoids."""
-        return self.model("RIGS", *[self.character(number, ".rig.glb") for number in range(5)], options=())
+        return self.model("RIGS", *[self.character(number, ".rig.glb") for number in range(5)])
 
     def marks(self):
         """MARKS.focal of the cases."""
-        return self.trained("MARKS", os.path.join(self.characters, "humanoid"), "--limit", 4, "--trees", 6, "--eigenpairs", 60,
-                            "--proxy", 1000)
+        options = ("--limit", 4, "--trees", 6, "--eigenpairs", 60, "--proxy", 1000)
+        return self.trained("MARKS", lambda path: self.report("train", os.path.join(self.characters, "humanoid"), "-o", path, *options))
 
     def rig(self, model, mesh, *options, kind=".glb"):
         """The rigged file and the command's report; the same rig is made once."""

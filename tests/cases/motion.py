@@ -35,7 +35,7 @@ def moving(scene, name):
 
 def unnamed(case):
     lab, hero = case.lab, case.file("hero_unnamed.glb")
-    model = lab.model("unnamed", hero)
+    model = lab.quick("unnamed", hero)
     scene, _ = lab.rig(model, lab.character(12), "--animations", hero)
     case.is_so("21 channels that move", moving(scene, "stretch") == 21, moving(scene, "stretch"))
     posed_as_skinned(case, hero)
@@ -52,19 +52,19 @@ def posed_as_skinned(case, file, true=None, clip="stretch", time=1):
 def prefixes(case):
     lab = case.lab
     a, b, c = (case.file(name + ".glb") for name in "abc")
-    report = lab.report("info", lab.model("mixamo_ab", a, b))
+    report = lab.report("info", lab.quick("mixamo_ab", a, b))
     case.is_so("22 joints of two characters with other prefixes", len(report["joints"]) == 22, len(report["joints"]))
     for source in b, c:
-        scene, _ = lab.rig(lab.model("mixamo_a", a), lab.character(12), "--animations", source)
+        scene, _ = lab.rig(lab.quick("mixamo_a", a), lab.character(12), "--animations", source)
         case.is_so("21 channels of a clip with another prefix", moving(scene, "stretch") == 21, moving(scene, "stretch"))
-    status, _, error = lab.focal("rig", lab.model("unnamed", lab.input("08_unnamed", "hero_unnamed.glb")), lab.character(12),
+    status, _, error = lab.focal("rig", lab.quick("unnamed", lab.input("08_unnamed", "hero_unnamed.glb")), lab.character(12),
                                  "--animations", a, "-o", case.result("none.glb"), "--keep-failed")
     case.is_so("a clip without any matching joint is told of", "match" in error or "joint" in error, error.strip().split("\n")[0][:90])
 
 
 def parented(case):
     lab = case.lab
-    scene, _ = lab.rig(lab.model("robot", case.file("robot.glb"), options=()), lab.character(12))
+    scene, _ = lab.rig(lab.quick("robot", case.file("robot.glb")), lab.character(12))
     shares = []
     for _, _, points, weights in scene.shown():
         top = points[:, 1] > points[:, 1].max() - 0.15
@@ -105,7 +105,7 @@ def real_humans(case):
         case.is_so("skipped: no such humans in FOCAL_EVALUATION_DATA", True)
         return
     zombie = Scene(case.file("human-zombie.glb"))
-    _, report = lab.rig(lab.model("humans", *humans, options=()), case.file("human-zombie.glb"))
+    _, report = lab.rig(lab.model("humans", *humans), case.file("human-zombie.glb"))
     bound = {name: place for name, place in zombie.places().items() if name in places(report)}  # it stands as it is bound
     off = distances(places(report), bound) / height(zombie)
     case.at_most("joints beside its own, mean % of the height", 100 * off.mean(), 5)

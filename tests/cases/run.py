@@ -1,6 +1,6 @@
 """Runs every case of the folder of cases as a user would and compares with its right answer. Prints a table; fails where one is wrong.
 
-    run.py --focal FOCAL --characters FOLDER --out FOLDER [--tools FOLDER] [--only NAME] [--models FOLDER]
+    run.py --focal FOCAL --quick-model FOCAL_QUICK_MODEL --characters FOLDER --out FOLDER [--tools FOLDER] [--only NAME] [--models FOLDER]
 
 The cases lie beside the folder that FOCAL_EVALUATION_DATA names, as `cases`; without them it ends with 77. --characters: sample
 characters, `focal_creatures FOLDER --family humanoid`. --tools: where node_modules of the viewers lie; what was written is judged by
@@ -66,7 +66,7 @@ def judge_written(lab, tools):
 
 def main():
     parser = argparse.ArgumentParser()
-    for name in ("--focal", "--characters", "--out"):
+    for name in ("--focal", "--quick-model", "--characters", "--out"):
         parser.add_argument(name, required=True)
     parser.add_argument("--tools")
     parser.add_argument("--only")
@@ -78,7 +78,7 @@ def main():
         print("cases: skipped: no folder 'cases' beside FOCAL_EVALUATION_DATA")
         return 77
     shutil.rmtree(options.out, ignore_errors=True)
-    lab = Lab(options.focal, folder, options.characters, data, options.out, options.models)
+    lab = Lab(options.focal, options.quick_model, folder, options.characters, data, options.out, options.models)
     there = {name for name in os.listdir(folder) if os.path.isdir(os.path.join(folder, name))}
     for name in sorted(there - set(CASES)):
         lab.add(name, "is known here", "", WRONG)

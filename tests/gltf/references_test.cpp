@@ -238,7 +238,7 @@ void check_kept(const std::vector<std::byte>& source) {
   if (const auto own = read_gltf_rig(source, mesh.primitives)) {
     GltfDocument weighted(source);
     weighted.replace_weights(mesh.primitives, *own);
-    check_kept(source, weighted.bytes(), Kept(false));
+    check_kept(source, weighted.bytes(), Kept(is_posed));
   }
 }
 

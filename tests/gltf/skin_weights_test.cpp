@@ -74,3 +74,25 @@ TEST_CASE("a mesh without a skin and one of scenery keep what they have") {
   primitives[0].is_scenery = true;
   CHECK(parsed(replace_weights(source, primitives, rig))["meshes"] == parsed(source)["meshes"]);
 }
+
+TEST_CASE("a mesh whose bind matrices make no shape stands where it stood with whatever weights") {
+  GltfBuilder file = segments();
+  file.add_node({{"name", "hidden"},
+                 {"mesh", file.add_mesh(0, 1)},
+                 {"skin", 0},
+                 {"extensions", {{"KHR_node_visibility", {{"visible", false}}}}}});
+  file.root["extensionsUsed"] = {"KHR_node_visibility"};
+  const auto source = file.glb();
+  const GltfMesh mesh = read_gltf_memory(source);
+  Rig rig = *read_gltf_rig(source, mesh.primitives);
+  for (VertexInfluences& one : rig.influences) one = {{{0, 0.5F}, {1, 0.5F}}};
+  const auto written = replace_weights(source, mesh.primitives, rig);
+  const GltfMesh again = read_gltf_memory(written);
+  CHECK((again.mesh.positions - mesh.mesh.positions).norm() < 1e-5);
+  CHECK_FALSE(again.primitives[0].is_posed);
+  check_same(*read_gltf_rig(written, again.primitives), rig);
+  const json before = parsed(source), after = parsed(written);
+  CHECK(after["nodes"].back() == before["nodes"].back());  // it keeps its skin
+  CHECK(after["skins"][0] == before["skins"][0]);
+  CHECK(after["skins"].size() == 2);
+}

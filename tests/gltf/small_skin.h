@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -87,6 +88,45 @@ inline GltfBuilder skinned_tetrahedron(uint8_t joint = 0, float weight = 1) {
   const int bone = file.add_node({{"name", "bone"}, {"translation", {0, 1, 0}}});
   file.root["skins"] = json::array({{{"joints", {bone}}}});
   file.root["nodes"][0]["skin"] = 0;
+  return file;
+}
+
+// Numbers of four an entry.
+template <class T>
+int add_fours(GltfBuilder& file, const std::vector<T>& values) {
+  const int accessor = file.add_accessor(values, "SCALAR");
+  json& element = file.root["accessors"][static_cast<size_t>(accessor)];
+  element["type"] = "VEC4", element["count"] = values.size() / 4;
+  return accessor;
+}
+
+// Two tetrahedra, each modelled about its own joint, in one primitive; the second joint stands 3 up and turned about z.
+inline GltfBuilder segments() {
+  GltfBuilder file;
+  std::vector<float> positions = kTetrahedron;
+  positions.insert(positions.end(), kTetrahedron.begin(), kTetrahedron.end());
+  std::vector<uint16_t> faces = kTetrahedronFaces;
+  for (const uint16_t corner : kTetrahedronFaces) faces.push_back(static_cast<uint16_t>(corner + 4));
+  const int places = file.add_accessor(positions, "VEC3");
+  file.add_mesh(places, file.add_accessor(faces, "SCALAR"));
+  std::vector<uint8_t> joints(32, 0);
+  std::vector<float> weights(32, 0), normals, offsets;
+  for (size_t v = 0; v < 8; ++v) {
+    joints[4 * v] = v >= 4, weights[4 * v] = 1;
+    for (const float x : {1.0F, 0.0F, 0.0F}) normals.push_back(x);
+    for (const float x : {0.0F, 0.5F, 0.0F}) offsets.push_back(x);
+  }
+  json& primitive = file.root["meshes"][0]["primitives"][0];
+  primitive["attributes"]["JOINTS_0"] = add_fours(file, joints);
+  primitive["attributes"]["WEIGHTS_0"] = add_fours(file, weights);
+  primitive["attributes"]["NORMAL"] = file.add_accessor(normals, "VEC3");
+  primitive["targets"] = {{{"POSITION", file.add_accessor(offsets, "VEC3")}}};
+  file.add_node({{"mesh", 0}, {"skin", 0}});
+  const int low = file.add_node({{"name", "low"}});
+  const float half = std::numbers::sqrt2_v<float> / 2;
+  const int high =
+      file.add_node({{"name", "high"}, {"translation", {0, 3, 0}}, {"rotation", {0, 0, half, half}}}, low);
+  file.root["skins"] = json::array({{{"joints", {low, high}}}});
   return file;
 }
 

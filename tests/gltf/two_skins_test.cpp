@@ -32,16 +32,10 @@ void add_half(GltfBuilder& file, const TriangleMesh& whole, bool is_upper, doubl
         joints.push_back(k == 1), weights.push_back(k == 0 ? 0.75F : k == 1 ? 0.25F : 0);
     }
   }
-  const auto add_fours = [&](auto values) {
-    const int accessor = file.add_accessor(values, "SCALAR");
-    json& element = file.root["accessors"][static_cast<size_t>(accessor)];
-    element["type"] = "VEC4", element["count"] = values.size() / 4;
-    return accessor;
-  };
   const int positions = file.add_accessor(places, "VEC3");
   const int mesh = file.add_mesh(positions, file.add_accessor(corners, "SCALAR"));
   json& attributes = file.root["meshes"][static_cast<size_t>(mesh)]["primitives"][0]["attributes"];
-  attributes["JOINTS_0"] = add_fours(joints), attributes["WEIGHTS_0"] = add_fours(weights);
+  attributes["JOINTS_0"] = add_fours(file, joints), attributes["WEIGHTS_0"] = add_fours(file, weights);
   file.add_node({{"mesh", mesh}, {"skin", skin}});
 }
 

@@ -39,7 +39,8 @@ all() {  # INPUT
   if has_skin "$1"; then write "$1" "keep" rig --keep-skeleton "$1" --json; fi
 }
 
-write "$hero" "rig --animations $hero" rig "$model" "$hero" --animations "$hero" --keep-failed --json
+bare=$out/set/humanoid/humanoid_00.glb
+write "$bare" "rig --animations $hero" rig "$model" "$bare" --animations "$hero" --keep-failed --json
 wild=$(ls "$data"/wild/dev/*.rig.glb | awk "NR % $every == 0")
 for input in "$out"/set/*/*.glb "$data"/rigs/*.glb $wild "$data"/makehuman/mh00a*.glb "$data"/../cases/*/*.glb; do
   if [ -f "$input" ]; then all "$input"; fi
