@@ -4,7 +4,7 @@ import sys
 import bpy
 
 from common import MODULE, activate, check, step
-from in_window import OTHER, call, jobs, press, view, wait_for_job
+from in_window import OTHER, call, jobs, press, until, view, wait_for_job
 
 
 def test():
@@ -100,12 +100,11 @@ def look_around():
     for key in ("NUMPAD_3", "NUMPAD_1", "NUMPAD_7"):
         before = turned.view_rotation.copy()
         yield from press(where, key)
-        yield 0.6
-        check(turned.view_rotation.rotation_difference(before).angle > 0.5, f"{key} turns the view")
+        yield from until(lambda: turned.view_rotation.rotation_difference(before).angle > 0.5, f"{key} turns the view")
+        yield 0.3  # to its end
     distance = turned.view_distance
     yield from press(where, "WHEELUPMOUSE")
-    yield 0.4
-    check(turned.view_distance < distance, "the wheel comes nearer")
+    yield from until(lambda: turned.view_distance < distance, "the wheel comes nearer")
     yield from over_gizmo(where, turned)
     yield from open_pie(where)
     check(running() and not marks()["belly"].placed, "nothing was placed, and clicks still are")
@@ -148,8 +147,7 @@ def over_gizmo(where, turned):
         send(type="MOUSEMOVE", value="NOTHING", x=x - 6 * step_x, y=y - 2 * step_x)
         yield 0.05
     send(type="LEFTMOUSE", value="RELEASE", x=x - 42, y=y - 14)
-    yield 0.6
-    check(turned.view_rotation.rotation_difference(before).angle > 0.05, "the gizmo turns the view")
+    yield from until(lambda: turned.view_rotation.rotation_difference(before).angle > 0.05, "the gizmo turns the view")
 
 
 def pass_over():
