@@ -24,7 +24,7 @@ if [ ! -f "$root/complete" ]; then
   {
     debootstrap --variant=minbase trixie "$root" "$mirror" &&
       chroot "$root" env DEBIAN_FRONTEND=noninteractive apt-get -qq install -y --no-install-recommends \
-        blender libegl1 libgl1-mesa-dri python3-numpy xvfb &&
+        blender libgl1-mesa-dri python3-numpy xvfb &&
       rm -rf "$root"/var/cache/apt/archives/*.deb "$root"/var/lib/apt/lists/*
   } > "$root.log" 2>&1 || skip "Debian 13 with Blender could not be made, see $root.log: $(tail -n 1 "$root.log")"
   touch "$root/complete"
