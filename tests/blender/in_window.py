@@ -39,11 +39,3 @@ def press(where, kind):
     for value in ("PRESS", "RELEASE"):
         where["window"].event_simulate(type=kind, value=value, x=x, y=y)
         yield 0.1
-
-
-def until(condition, text, seconds=5):
-    """Waits for Blender to have drawn and moved what an event asked for."""
-    end = time.perf_counter() + seconds
-    while not condition():
-        check(time.perf_counter() < end, text)
-        yield 0.05
