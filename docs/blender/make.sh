@@ -22,7 +22,7 @@ blender --factory-startup --window-geometry 0 0 1280 1000 --python-exit-code 3 -
   -- "$zip" "$work/samples/humanoid" "$work/out" > "$work/log" 2>&1 || { cat "$work/log"; exit 1; }
 
 small() { convert "$@" -dither None -colors 160 -define png:compression-level=9 -strip "png8:$out"; }
-for name in landmarks train detect rig skeleton; do
+for name in landmarks train detect rig; do
   out=$here/$name.png
   small "$work/out/$name.png" -crop 800x879+257+0 +repage -resize 85%
 done

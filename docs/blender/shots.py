@@ -61,7 +61,7 @@ shown = set()
 def panels_by_label():
     """Makes the tab's panels show by their label, open: what a user does by clicking their headers."""
     panels = sys.modules[MODULE + ".panels"]
-    for cls in panels.CLASSES + sys.modules[MODULE + ".panel_skeleton"].CLASSES:
+    for cls in panels.CLASSES:
         if not issubclass(cls, bpy.types.Panel) or cls is panels.FOCAL_PT_main:
             continue
         bpy.utils.unregister_class(cls)
@@ -177,23 +177,6 @@ def detection_shots(other):
     call(bpy.ops.focal.rig)
     yield 1
     shoot("rig")
-    yield from skeleton_shot(other)
-
-
-def skeleton_shot(obj):
-    """Joints of the humanoid template, and landmarks ticked for one more."""
-    settings = bpy.context.scene.focal
-    obj.modifiers[0].object.hide_set(True)
-    open_panels("Landmarks", "Skeleton")
-    show(obj)
-    call(bpy.ops.focal.joint_template, kind="humanoid")
-    call(bpy.ops.focal.joint_show)
-    settings.choose, settings.joint_active = True, settings.joints.find("leftHand")
-    for name in ("handTip.L", "thumbTip.L"):
-        obj.focal.landmarks[name].chosen = True
-    obj.focal.active = obj.focal.landmarks.find("handTip.L")
-    yield 1
-    shoot("skeleton")
 
 
 def run(steps=shots()):

@@ -70,6 +70,8 @@ def test_file(obj, armature):
     activate(obj)
     armature.select_set(True)
     bpy.ops.export_scene.gltf(filepath=path, export_format="GLB", export_extras=True, use_selection=True)
+    with open(path, "rb") as file:
+        check(b'"landmarks"' not in file.read(), "the add-on's lists stay out of the file")
     before = set(bpy.data.objects)
     bpy.ops.import_scene.gltf(filepath=path)
     new = [o for o in bpy.data.objects if o not in before]

@@ -17,7 +17,8 @@ from . import (batch, binding, correction, detection, engine, jobs, landmark_edi
 _MODULES = (properties, preferences, model_files, jobs, landmark_edit, landmark_exchange, landmark_pick, template_edit, training,
             detection, correction, rigging, rigify, binding, segmentation, batch, vote_map, panels, panel_skeleton, overlay)
 
-# Blender's glTF importer looks for this name in each add-on.
+# Blender's glTF importer and exporter look for these names in each add-on.
+glTF2ExportUserExtension = landmark_exchange.SettingsStay
 glTF2ImportUserExtension = landmark_exchange.LandmarksOfFile
 
 

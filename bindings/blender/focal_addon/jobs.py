@@ -61,6 +61,8 @@ class Job:
         with self._lock:
             task, stage = self._task, self.stage
         detail = task.stage if task is not None and not self.done else ""
+        if not stage:
+            return "Starting"
         return stage[:1].upper() + stage[1:] + (f": {detail}" if detail else "")
 
     def cancel(self):

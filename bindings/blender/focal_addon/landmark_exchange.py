@@ -87,6 +87,22 @@ def _entry_of(mark, surface, to_file):
     return entry
 
 
+class SettingsStay:
+    """What Blender's glTF exporter calls: with its option for custom properties it would write the add-on's own lists and settings as
+    extras.focal of nodes, which has another meaning in focal's files."""
+
+    def gather_node_hook(self, node, _obj, _settings):
+        _drop(node)
+
+    def gather_scene_hook(self, scene, _blender_scene, _settings):
+        _drop(scene)
+
+
+def _drop(element):
+    if isinstance(element.extras, dict):
+        element.extras.pop("focal", None)
+
+
 class LandmarksOfFile:
     """What Blender's glTF importer calls when it has made the objects: extras.focal of the meshes becomes their lists again, and the nodes
     that show the landmarks to other programs are not kept beside them."""

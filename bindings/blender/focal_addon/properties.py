@@ -37,8 +37,9 @@ def redraw_views(_self, context):
 
 
 def update_empties(settings, context):
-    for obj in settings.id_data.objects:
-        if obj.type == "MESH" and (obj.focal.landmarks or display.empties_of(obj)):
+    meshes = [obj for obj in settings.id_data.objects if obj.type == "MESH"]  # before others are added or removed
+    for obj in meshes:
+        if obj.focal.landmarks or display.empties_of(obj):
             display.update_empties(context, obj)
 
 

@@ -44,7 +44,7 @@ def over_gizmo(context, x, y):
         return False
     right, top = _free_corner(area)
     scale = context.preferences.system.ui_scale
-    ball = view.gizmo_size_navigate_3d + 2 * _BORDER if view.mini_axis_type == "GIZMO" else 0
+    ball = view.gizmo_size_navigate_v3d + 2 * _BORDER if view.mini_axis_type == "GIZMO" else 0
     across, down = (right - x) / scale, (top - y) / scale
     return (0 <= across < ball and 0 <= down < ball) or (
         0 <= across < _BUTTON_WIDTH and 0 <= down < ball + _BORDER + _BUTTONS * _BUTTON_HEIGHT)
