@@ -42,14 +42,14 @@ open_display() {
 enter_debian13() {  # copies what the test needs into its root; a copy, for mounts would outlive a test that is killed
   root=$("$here/debian13.sh") || exit $?
   inside=/focal-test-$$
-  mkdir -p "$root$inside"
   trap 'rm -rf "$root$inside"' EXIT
-  cp -r "$here" "$zip" "$work/samples" "$root$inside"
-  mkdir "$root$inside/out" "$root$inside/user"
-  mkdir "$root$inside/wild"
+  mkdir "$root$inside" "$root$inside/out" "$root$inside/tests" "$root$inside/user" "$root$inside/wild"
+  cp -r "$zip" "$work/samples" "$root$inside"
+  cp -r "$here/../../samples/templates" "$root$inside/samples"  # where the scripts look for them
+  cp -r "$here" "$root$inside/tests"
   if [ -d "$FOCAL_WILD" ]; then cp "$FOCAL_WILD"/*.glb "$root$inside/wild"; fi
   run="chroot $root env HOME=$inside/user FOCAL_WILD=$inside/wild BLENDER_USER_RESOURCES=$inside/user"
-  samples=$inside/samples/$family out=$inside/out scripts=$inside/$(basename "$here") zip=$inside/$(basename "$zip")
+  samples=$inside/samples/$family out=$inside/out scripts=$inside/tests/$(basename "$here") zip=$inside/$(basename "$zip")
 }
 
 rm -rf "$work"
