@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "landmarks/shape_starts.h"
 #include "skeleton/character_rig.h"
@@ -113,6 +114,8 @@ class Fitting {
     return starts;
   }
 
+  bool has_other_side(size_t joint) const { return counterpart_[joint] >= 0; }
+
   // Whether the joints lie nearer to the start with its sides exchanged.
   bool is_reversed(const FittedShape& fit) const {
     double as_it_is = 0, exchanged = 0;
@@ -217,16 +220,27 @@ double agreement_of(const std::vector<Vector3>& a, const std::vector<Vector3>& b
   return 1 / (1 + std::pow(apart(a, b) / agreement, 4));
 }
 
-// Those that face the way that the best of them says, the best first.
-void choose_heading(const Fitting& fitting, bool may_reverse, BodyFit& result) {
+// Distances from fixed joints that have another side; nothing where there are none.
+std::optional<double> away_from(const FixedJoints& fixed, const Fitting& fitting, const FittedShape& fit) {
+  std::optional<double> sum;
+  for (size_t j = 0; j < fixed.size(); ++j)
+    if (fixed[j] && fitting.has_other_side(j))
+      sum = sum.value_or(0) + (fit.posture.place[j] - *fixed[j]).norm();
+  return sum;
+}
+
+// Those that face the way that fixed joints or else the best of them says, the best first.
+void choose_heading(const Fitting& fitting, bool may_reverse, const FixedJoints& fixed, BodyFit& result) {
   std::vector<FittedShape> kept[2];
   for (FittedShape& one : result.shapes)
     kept[may_reverse && fitting.is_reversed(one) ? 1 : 0].push_back(std::move(one));
   for (auto& fits : kept) Fitting::keep_best(fits, fits.size());
   if (!kept[0].empty() && !kept[1].empty()) {
     const double ratio = kept[1][0].residual / kept[0][0].residual;
-    result.is_reversed = ratio < 1 - reversing_margin;
-    result.heading_margin = (result.is_reversed ? 1 / ratio : ratio) - 1;
+    const auto as_it_is = away_from(fixed, fitting, kept[0][0]),
+               reversed = away_from(fixed, fitting, kept[1][0]);
+    result.is_reversed = as_it_is ? *reversed < *as_it_is : ratio < 1 - reversing_margin;
+    result.heading_margin = as_it_is ? result.heading_margin : (result.is_reversed ? 1 / ratio : ratio) - 1;
   } else {
     result.is_reversed = kept[0].empty();
   }
@@ -236,16 +250,18 @@ void choose_heading(const Fitting& fitting, bool may_reverse, BodyFit& result) {
 }  // namespace
 
 BodyFit fit_to_body(const Detection& detection, const std::vector<ShapeMap>& maps,
-                    const PlacedSkeleton& start, bool may_reverse, const Execution& execution) {
+                    const PlacedSkeleton& start, bool may_reverse, const FixedJoints& fixed,
+                    const Execution& execution) {
   Fitting fitting(detection, start, execution);
   BodyFit result;
   fitting.add(fitting.from_maps(maps), from_maps, result.shapes);
-  if (detection.model->params.oriented && detection.bulge_agreement < sure_bulge) {
+  const bool is_known = away_from(fixed, fitting, result.shapes[0]).has_value();
+  if (detection.model->params.oriented && (is_known || detection.bulge_agreement < sure_bulge)) {
     may_reverse = may_reverse && fitting.has_sides();
     if (may_reverse) fitting.add(fitting.reversed(result.shapes), from_posture, result.shapes);
     fitting.add(fitting.laid_over(may_reverse), from_posture, result.shapes);
   }
-  choose_heading(fitting, may_reverse, result);
+  choose_heading(fitting, may_reverse, fixed, result);
   double sum = 0;
   const FittedShape& best = result.shapes[0];
   for (FittedShape& one : result.shapes) {

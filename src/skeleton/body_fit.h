@@ -6,6 +6,7 @@
 
 #include "landmarks/detect.h"
 #include "skeleton/articulated_fit.h"
+#include "skeleton/fixed_joints.h"
 #include "skeleton/taught_weights.h"
 
 namespace focal {
@@ -28,9 +29,11 @@ struct BodyFit {
 };
 
 // start: where the maps suppose the joints. maps: of rigged shapes, not empty. may_reverse: the body may face the other way than they
-// suppose.
+// suppose. fixed: joints whose places are known, in the coordinates of the analysed surface; those that have another side say how it
+// faces.
 BodyFit fit_to_body(const Detection& detection, const std::vector<ShapeMap>& maps,
-                    const PlacedSkeleton& start, bool may_reverse, const Execution& execution);
+                    const PlacedSkeleton& start, bool may_reverse, const FixedJoints& fixed,
+                    const Execution& execution);
 
 // The maps that fits amount to.
 std::vector<ShapeMap> maps_of_fits(const BodyFit& fit, const LandmarkModel& model,

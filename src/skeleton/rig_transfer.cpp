@@ -214,13 +214,21 @@ void settle_twists(const LandmarkModel& model, const std::vector<Opinion>& opini
       joints.turn[j] = Eigen::AngleAxisd(by[j], way[j]).toRotationMatrix() * joints.turn[j];
 }
 
+// From the caller's coordinates to those of the full surface.
+FixedJoints on_full(const FixedJoints& fixed, const PreparedMesh& mesh) {
+  FixedJoints result(fixed.size());
+  for (size_t j = 0; j < fixed.size(); ++j)
+    if (fixed[j]) result[j] = (*fixed[j] - mesh.centre) / mesh.scale;
+  return result;
+}
+
 // Fixed joints, in the caller's coordinates, and those that follow them.
 void hold_fixed(const std::vector<SkeletonJoint>& skeleton, const FixedJoints& fixed,
                 const PreparedMesh& mesh, Joints& joints) {
-  FixedJoints inside(fixed.size());
   for (size_t j = 0; j < fixed.size(); ++j)
-    if (fixed[j]) inside[j] = (*fixed[j] - mesh.centre) / mesh.scale, joints.confidence[j] = 1;
-  follow(inside, fixed_joint_reach, {parents_of(skeleton), joints.place, joints.tip, joints.turn});
+    if (fixed[j]) joints.confidence[j] = 1;
+  follow(on_full(fixed, mesh), fixed_joint_reach,
+         {parents_of(skeleton), joints.place, joints.tip, joints.turn});
 }
 
 // A joint that moves vertices belongs inside the body; controls may lie anywhere.
@@ -292,10 +300,9 @@ std::vector<Opinion> opinions_of(const std::vector<ShapeMap>& maps, const Landma
   return opinions;
 }
 
-// Joints or landmarks that are known say how the body faces.
-bool may_reverse(const Detection& detection, const FixedJoints& fixed) {
-  return detection.model->params.finds_heading && !detection.has_fixed &&
-         std::none_of(fixed.begin(), fixed.end(), [](const auto& one) { return one.has_value(); });
+// Landmarks that are known say how the body faces.
+bool may_reverse(const Detection& detection) {
+  return detection.model->params.finds_heading && !detection.has_fixed;
 }
 
 // What the fits say beside the maps, which count as much as the fits leave them.
@@ -337,8 +344,11 @@ CharacterRig transfer_rig(const Detection& detection, const Execution& execution
   CharacterRig result;
   std::vector<std::string> of_maps;  // warnings that the fits may answer
   const Joints mapped = agreed_joints(model.skeleton, opinions, of_maps);
+  FixedJoints known = on_full(fixed, *detection.mesh);
+  for (auto& one : known)
+    if (one) one = to_full.back(*one);
   const BodyFit fit = fit_to_body(detection, maps, on_analysed(model.skeleton, mapped, to_full),
-                                  may_reverse(detection, fixed), execution);
+                                  may_reverse(detection), known, execution);
   add_fits(fit, model, to_full, opinions);
   result.surface_distance = fit.shapes[0].residual, result.heading_margin = fit.heading_margin;
   if (fit.is_reversed)

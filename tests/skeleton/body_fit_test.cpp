@@ -47,8 +47,8 @@ struct Body {
     for (size_t j = 0; j < truth.size(); ++j) sum += (fit.shapes[0].posture.place[j] - truth[j]).norm();
     return sum / static_cast<double>(truth.size());
   }
-  BodyFit fit(bool may_reverse) const {
-    return fit_to_body(detection, detection.maps, start, may_reverse, execution);
+  BodyFit fit(bool may_reverse, const FixedJoints& fixed = {}) const {
+    return fit_to_body(detection, detection.maps, start, may_reverse, fixed, execution);
   }
 };
 
@@ -75,6 +75,23 @@ TEST_CASE("a start whose sides are exchanged is corrected, unless the heading is
   CHECK(body.fit(true).is_reversed);
   CHECK(body.error(body.fit(true)) < 0.05);
   CHECK_FALSE(body.fit(false).is_reversed);
+}
+
+TEST_CASE("a fixed joint that has another side says how the body faces, one in the middle does not") {
+  const Body body(11);
+  const auto at = [&](const char* name) {
+    const auto& joints = body.start.joints;
+    return static_cast<size_t>(std::find_if(joints.begin(), joints.end(),
+                                            [&](const SkeletonJoint& joint) { return joint.name == name; }) -
+                               joints.begin());
+  };
+  FixedJoints fixed(body.truth.size());
+  fixed[at("hips")] = body.truth[at("hips")];
+  CHECK_FALSE(body.fit(true, fixed).is_reversed);
+  fixed[at("leftHand")] = body.truth[at("leftHand")];
+  CHECK_FALSE(body.fit(true, fixed).is_reversed);
+  fixed[at("leftHand")] = body.truth[at("rightHand")];
+  CHECK(body.fit(true, fixed).is_reversed);
 }
 
 TEST_CASE("landmarks whose sides are exchanged: the rig is right all the same, and says so") {
