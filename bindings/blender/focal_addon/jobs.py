@@ -15,7 +15,7 @@ from .geometry import Unusable
 from .templates import TemplateError
 
 TIMER_SECONDS = 0.02
-_REDRAW_EVERY = 8  # timer events: drawing the interface costs time that the work could use
+_REDRAW_EVERY = 12  # timer events, a quarter of a second: drawing the interface costs time that the work could use
 
 # At most one at a time: it would only compete with itself for the processor.
 _current = None
