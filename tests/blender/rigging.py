@@ -21,6 +21,7 @@ def test_rig():
     check(bpy.ops.focal.rig() == {"FINISHED"}, "a rig is made")
     armature = obj.modifiers[0].object
     bones = armature.data.bones
+    check(armature["focal_verdict"].startswith("verdict: "), "the verdict is kept with the armature")
     check("mixamorig:LeftArm" in bones and bones["mixamorig:LeftForeArm"].parent.name == "mixamorig:LeftArm", "names")
     after = [tuple(obj.matrix_world @ v.co) for v in obj.data.vertices[:50]]
     check(numpy.allclose(before, after, atol=1e-5), "the mesh stays where it was")

@@ -29,6 +29,7 @@ class RigTarget(Target):
         self.options = {"names": settings.bone_names.lower(), "symmetric": settings.symmetric,
                         "ground_root": settings.ground_root, "skeleton_template": _template(settings)}
         self._own = template_edit.as_template(settings)
+        self.verdict = ""  # of the rig, when there is one
 
     def rig(self, job, start=0.0, end=1.0):
         """(detection, joints, joint numbers, weights, warnings); runs in the thread."""
@@ -37,6 +38,7 @@ class RigTarget(Target):
         task = job.begin(f"rigging {self.surface.name}", middle, end)
         skeleton = detection.rig(task=task, **{**self.options, "skeleton_template": self._skeleton(detection)})
         numbers, weights = skeleton.weights
+        self.verdict = f"verdict: {skeleton.verdict.name.lower()}, quality {100 * skeleton.quality:.0f} %"
         return detection, skeleton.joints, numbers, weights, skeleton.warnings
 
     def _skeleton(self, detection):
@@ -82,9 +84,10 @@ Esc cancels"""
         objects = self._target.objects()
         self._target.remember()
         armature = write_rig(context, objects, self._target, result)
+        armature["focal_verdict"] = self._target.verdict
         notes = result[-1] + list(dict.fromkeys(hint for obj in objects for hint in hints_of(obj)))
         self.report({"WARNING"} if result[-1] else {"INFO"},
-                    "; ".join([f"{len(armature.data.bones)} bones"] + notes))
+                    "; ".join([f"{len(armature.data.bones)} bones", self._target.verdict] + notes))
 
 
 def write_rig(context, objects, target, result):
