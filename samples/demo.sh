@@ -60,7 +60,7 @@ value() {  # KEY FILE: of a top-level key of a report
   sed -n "s/^ \"$1\": \"\{0,1\}\([^,\"]*\)\"\{0,1\},\{0,1\}\$/\1/p" "$2"
 }
 
-tell_rigs() {
+report_rigs() {
   usable=0 all=0
   for number in $unseen; do
     verdict=$(value verdict "$out/rigged_$number.json")
@@ -71,7 +71,7 @@ tell_rigs() {
   [ $((2 * usable)) -ge $all ]
 }
 
-tell_landmarks() {
+report_landmarks() {
   mean=$(value mean_edges "$out/landmarks.eval.json")
   flips=$(value flipped_meshes "$out/landmarks.eval.json")
   awk -v m="$mean" -v f="$flips" 'BEGIN { printf "  mean error %.2f edges of the mesh, flipped left/right: %s\n", m, f }'
@@ -93,9 +93,9 @@ step "write and draw one character's landmarks" find_on
 print_times
 failed=0
 echo "Rigs of characters never seen, by a stock model of $teachers characters (samples/stock/make.sh makes the whole one, of 60):"
-tell_rigs || failed=1
+report_rigs || failed=1
 echo "Landmarks of characters never seen:"
-tell_landmarks || failed=1
+report_landmarks || failed=1
 [ $failed -eq 0 ] || echo "NOT GOOD ENOUGH"
 echo
 echo "Look at:"

@@ -797,7 +797,7 @@ typedef struct focal_skeleton_params {
   /* A rigged character, loaded with focal_mesh_load_gltf, whose animations focal_skeleton_write_gltf puts
      in; NULL: none. Its joints should be named as those of the characters that taught the model. */
   const focal_mesh* animations;
-  /* Default FOCAL_POSE_OF_MESH. T and A need a skeleton with two arms, told by the joints' roles; INVALID_ARGUMENT without. */
+  /* Default FOCAL_POSE_OF_MESH. T and A need a skeleton with two arms, which the joints' roles name; INVALID_ARGUMENT without. */
   focal_pose rest_pose;
   /* 1: what is alike on both sides becomes exactly so: joints of the left and right side, which their names identify, are mirror images
      of each other, and so are the weights of vertices that are. A mesh that does not stand alike on both sides (posed, or fewer than half
@@ -809,7 +809,7 @@ typedef struct focal_skeleton_params {
   const char* skeleton_template;
   /* Joints that move one vertex, at most: 1 to 8, default 4. Above 4 the file has JOINTS_1 and WEIGHTS_1 too. */
   int32_t max_influences;
-  /* 1: without the teachers' twist bones and helpers, told by the words of their names (twist, roll, helper, corrective, share); the
+  /* 1: without the teachers' twist bones and helpers, recognised by the words of their names (twist, roll, helper, corrective, share); the
      joints above them get what they moved. The skeleton then has fewer joints than the model. Default 0 */
   int32_t drop_helpers;
   /* Joints that are known, as after a correction by hand: joint_count of the model or template x 3 positions, with NaN for a joint that

@@ -82,7 +82,7 @@ MirrorPlane settled(const MatrixX3& positions, const NearestVertex& near, Mirror
   return plane;
 }
 
-// What stands for which turn on the other side: their axes are mirrored, and one of them or all three reversed. Which, the turns tell.
+// What stands for which turn on the other side: their axes are mirrored, and one of them or all three reversed. The turns decide which.
 Matrix3 axes_of_other(const Matrix3& turn, const Matrix3& mirrored) {
   Matrix3 best;
   double most = -std::numeric_limits<double>::infinity();

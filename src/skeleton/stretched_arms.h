@@ -7,7 +7,7 @@
 namespace focal {
 
 // Where the joints go: as in `rest`, but each upper arm, lower arm and hand points away from the other side, `below` radians below the
-// level (y is up), and what hangs on them goes along. Arms are told by the joints' roles (bone_roles). Empty: there are none.
+// level (y is up), and what hangs on them goes along. The joints' roles (bone_roles) name the arms. Empty: there are none.
 std::vector<Matrix4> stretched_arms(const std::vector<Joint>& joints, std::vector<Matrix4> rest,
                                     double below);
 

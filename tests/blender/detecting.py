@@ -9,7 +9,7 @@ from common import MODULE, OTHERS, OUT, SAMPLES, TRAINING, activate, check, load
 
 
 def test_refusals():
-    """What cannot be done is told, and nothing is changed."""
+    """What cannot be done is reported, and nothing is changed."""
     settings = bpy.context.scene.focal
     bpy.ops.mesh.primitive_cube_add()
     cube = bpy.context.active_object

@@ -13,9 +13,9 @@ def test_library_missing():
     install()
     empty_scene()
     engine = sys.modules[MODULE + ".engine"]
-    check("/nowhere" in engine.problem() and "unset it" in engine.problem(), f"told: {engine.problem()}")
+    check("/nowhere" in engine.problem() and "unset it" in engine.problem(), f"reported: {engine.problem()}")
     bpy.ops.mesh.primitive_uv_sphere_add()
-    check("/nowhere" in refused(bpy.ops.focal.detect), "operators tell it too")
+    check("/nowhere" in refused(bpy.ops.focal.detect), "operators report it too")
     del os.environ["FOCAL_LIBRARY"]
     bpy.ops.focal.check_library()
     check(not engine.problem() and engine.ready(), "and well again")

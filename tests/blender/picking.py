@@ -90,15 +90,15 @@ def correct():
 
 def answers_of_clicks():
     """{type of event: what the operator answered}, filled while it runs."""
-    cls, told = sys.modules[MODULE + ".landmark_pick"].FOCAL_OT_landmark_pick, {}
+    cls, answers = sys.modules[MODULE + ".landmark_pick"].FOCAL_OT_landmark_pick, {}
     handle = cls._handle
 
     def recorded(self, context, event):
         answer = handle(self, context, event)
-        told.setdefault(event.type, set()).update(answer)
+        answers.setdefault(event.type, set()).update(answer)
         return answer
     cls._handle = recorded
-    return told, lambda: setattr(cls, "_handle", handle)
+    return answers, lambda: setattr(cls, "_handle", handle)
 
 
 def look_around():
@@ -106,20 +106,20 @@ def look_around():
     activate(bpy.data.objects[OTHER])
     call(bpy.ops.focal.landmark_add, name="belly")
     where = view()
-    told, restore = answers_of_clicks()
+    answers, restore = answers_of_clicks()
     yield from start()
     with bpy.context.temp_override(**where):
         check(not bpy.ops.focal.landmark_pick.poll(), "one at a time")
     for key in ("NUMPAD_3", "NUMPAD_PERIOD", "NUMPAD_SLASH", "HOME", "N", "WHEELUPMOUSE", "MIDDLEMOUSE", "TIMER1"):
         yield from press(where, key)
-        check(told.get(key) == {"PASS_THROUGH"}, f"{key} is the view's: {told.get(key)}")
+        check(answers.get(key) == {"PASS_THROUGH"}, f"{key} is the view's: {answers.get(key)}")
     for key in ("X", "G", "DEL", "ONE"):
         yield from press(where, key)
-        check(told.get(key) == {"RUNNING_MODAL"}, f"{key} would change the scene: {told.get(key)}")
-    yield from over_gizmo(where, told)
+        check(answers.get(key) == {"RUNNING_MODAL"}, f"{key} would change the scene: {answers.get(key)}")
+    yield from over_gizmo(where, answers)
     check(OTHER in bpy.data.objects and running() and not marks()["belly"].placed, "nothing was placed, and clicks still are")
     yield from press(where, "Z")
-    check(told.get("Z") == {"PASS_THROUGH"}, f"Z opens a pie: {told.get('Z')}")
+    check(answers.get("Z") == {"PASS_THROUGH"}, f"Z opens a pie: {answers.get('Z')}")
     restore()
     for _ in range(2):  # a pie that is open takes the first one
         if running():
@@ -131,7 +131,7 @@ def look_around():
     step("the view's events are left to it while landmarks are placed")
 
 
-def over_gizmo(where, told):
+def over_gizmo(where, answers):
     """A press on the ball in the corner is the view's."""
     events = sys.modules[MODULE + ".view_events"]
     with bpy.context.temp_override(**where):
@@ -139,11 +139,11 @@ def over_gizmo(where, told):
         x, y = int(right - 50), int(top - 50)
         check(events.over_gizmo(bpy.context, x, y), "the gizmo is in the corner")
         check(not events.over_gizmo(bpy.context, right - 200, top - 200), "and not everywhere")
-    told.pop("LEFTMOUSE", None)
+    answers.pop("LEFTMOUSE", None)
     for value in ("PRESS", "RELEASE"):
         where["window"].event_simulate(type="LEFTMOUSE", value=value, x=x, y=y)
         yield 0.2
-    check(told.get("LEFTMOUSE") == {"PASS_THROUGH"}, "the gizmo gets its clicks")
+    check(answers.get("LEFTMOUSE") == {"PASS_THROUGH"}, "the gizmo gets its clicks")
 
 
 def pass_over():

@@ -98,7 +98,7 @@ def test_collection():
     collection.objects.link(bpy.data.objects.new("bad", bpy.data.meshes.new("bad")))
     settings.batch, settings.batch_rig = collection, True
     check(bpy.ops.focal.batch() == {"FINISHED"}, "the collection is done")
-    check("'bad' has no faces" in settings.report, "what was left out is told")
+    check("'bad' has no faces" in settings.report, "what was left out is reported")
     for name in OTHERS[1:]:
         check(bpy.data.objects[name].modifiers[0].type == "ARMATURE", f"{name} is rigged")
     step("a collection")

@@ -52,7 +52,7 @@ def test_shipped(obj):
         templates.text_for([name for name in lists["HUMANOID"] if name != "chin"])
         check(False, "a landmark that is missing is no template")
     except templates.TemplateError as error:
-        check("'humanoid' lacks the landmarks chin" in str(error), f"told: {error}")
+        check("'humanoid' lacks the landmarks chin" in str(error), f"reported: {error}")
     check(bpy.ops.focal.joint_template(kind="quadruped") == {"FINISHED"}, "another template is read")
     check("does not know: croup" in refused(bpy.ops.focal.rig), "what this model does not know is named")
     bpy.ops.focal.joint_remove(all=True)

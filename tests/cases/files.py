@@ -161,7 +161,7 @@ def upper_case(case):
     for name in "first", "second", "avatar":
         case.is_so(f"batch: {name} is done", name in done, done)
     _, said, error = lab.focal("batch", lab.marks(), folder, "-o", out)
-    case.is_so("batch: what was skipped is told of", "notes.txt" in said + error, said.strip()[-90:])
+    case.is_so("batch: what was skipped is named", "notes.txt" in said + error, said.strip()[-90:])
     status, _, error = lab.focal("detect", lab.marks(), os.path.join(folder, "second.GLB"), "-o", os.path.join(out, "marked.GLB"))
     case.is_so("detect writes .GLB", status == 0 and len(Scene(os.path.join(out, "marked.GLB")).nodes) > 1, error.strip())
 

@@ -133,10 +133,10 @@ def kept_nodes(before, after):
 
 def is_found_out(path):
     """Whether a file in which a joint stands elsewhere is noticed: a comparison that notices nothing would always pass."""
-    before, spoiled = Scene(path), Scene(path)
-    node = spoiled.rest[spoiled.root["skins"][0]["joints"][1]]
+    before, corrupted = Scene(path), Scene(path)
+    node = corrupted.rest[corrupted.root["skins"][0]["joints"][1]]
     node["translation"] = np.add(node.get("translation", [0, 0, 0]), 0.01 * np.ptp(points_of(before)))
-    worst = worst_of(before, [("nodes", spoiled, places_of(kept_nodes(before, spoiled))), ("vertices", spoiled, points_of)])
+    worst = worst_of(before, [("nodes", corrupted, places_of(kept_nodes(before, corrupted))), ("vertices", corrupted, points_of)])
     return min(worst.values()) > BOUND
 
 

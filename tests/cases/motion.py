@@ -59,7 +59,7 @@ def prefixes(case):
         case.is_so("21 channels of a clip with another prefix", moving(scene, "stretch") == 21, moving(scene, "stretch"))
     status, _, error = lab.focal("rig", lab.quick("unnamed", lab.input("08_unnamed", "hero_unnamed.glb")), lab.character(12),
                                  "--animations", a, "-o", case.result("none.glb"), "--keep-failed")
-    case.is_so("a clip without any matching joint is told of", "match" in error or "joint" in error, error.strip().split("\n")[0][:90])
+    case.is_so("a clip without any matching joint is named", "match" in error or "joint" in error, error.strip().split("\n")[0][:90])
 
 
 def parented(case):

@@ -30,10 +30,10 @@ def vrm_name(common):
 class Character:
     def __init__(self, folder, name):
         with open(f"{folder}/{name}.joints.json") as file:
-            told = json.load(file)
-        places = {joint["name"]: np.array(joint["position"]) for joint in told["joints"]}
-        self.name, self.path, self.size = name, f"{folder}/{name}.glb", told["size"]
-        self.true = {vrm_name(common): places[own] for common, own in told["common"].items()}
+            truth = json.load(file)
+        places = {joint["name"]: np.array(joint["position"]) for joint in truth["joints"]}
+        self.name, self.path, self.size = name, f"{folder}/{name}.glb", truth["size"]
+        self.true = {vrm_name(common): places[own] for common, own in truth["common"].items()}
 
 
 def rig(arguments, character, pins):

@@ -90,10 +90,10 @@ class Landmarks(Case):
 
     def test_many_at_once_are_the_same(self):
         meshes = [mesh(), mesh(16, 0.05)]
-        told = []
-        many = model().detect_many(meshes, keep_votes=False, on_progress=lambda *state: told.append(state))
-        self.assertEqual(told[-1], (1, "2 of 2 meshes"))
-        for progress, stage in told:
+        reports = []
+        many = model().detect_many(meshes, keep_votes=False, on_progress=lambda *state: reports.append(state))
+        self.assertEqual(reports[-1], (1, "2 of 2 meshes"))
+        for progress, stage in reports:
             self.assertEqual(stage, f"{round(2 * progress)} of 2 meshes")
         for found, one in zip(many, meshes):
             self.assertEqual([mark.position for mark in found], [mark.position for mark in model().detect(one)])

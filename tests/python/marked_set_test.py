@@ -107,8 +107,8 @@ class Sets(Case):
             self.assertRaises(ValueError, use)
 
     def test_evaluation(self):
-        marked, told = marked_set(self.folder()), []
-        result = marked.evaluate(model(), on_progress=lambda *state: told.append(state))
+        marked, reports = marked_set(self.folder()), []
+        result = marked.evaluate(model(), on_progress=lambda *state: reports.append(state))
         self.assertEqual([(one.mesh, one.landmark) for one in result.errors], [("shape5", name) for name in NAMES])
         surface, found = marked.mesh("shape5"), model().detect(marked.mesh("shape5"))
         for one in result.errors:
@@ -119,16 +119,16 @@ class Sets(Case):
         self.assertEqual(list(result.by_landmark()), NAMES)
         self.assertEqual(result.by_mesh()["shape5"].errors, result.errors)
         self.assertRegex(repr(result), r"^<focal\.Evaluation 3 marks, mean \d\.\d\d edges, median \d\.\d\d>$")
-        self.assertEqual(told[-1][0], 1)
+        self.assertEqual(reports[-1][0], 1)
         self.assertEqual(len(marked.evaluate(model(), ["shape1"]).errors), 2)  # a mark that is missing has no error
         self.assertTrue(math.isnan(focal.Evaluation([]).mean_edges))
 
     def test_cross_validation(self):
-        marked, told = marked_set(self.folder()), []
-        result = marked.cross_validate(folds=2, train=QUICK, on_progress=lambda *state: told.append(state))
+        marked, reports = marked_set(self.folder()), []
+        result = marked.cross_validate(folds=2, train=QUICK, on_progress=lambda *state: reports.append(state))
         self.assertEqual([one.mesh for one in result.errors], [name for name in marked.meshes() for _ in range(2 if name == "shape1" else 3)])
-        self.assertEqual([state[0] for state in told], sorted(state[0] for state in told))
-        self.assertEqual(told[-1][0], 1)
+        self.assertEqual([state[0] for state in reports], sorted(state[0] for state in reports))
+        self.assertEqual(reports[-1][0], 1)
         without = focal.Model.train(marked.training_set(["shape3", "shape4"]), **QUICK)
         self.assertEqual(marked.evaluate(without, ["shape0", "shape1", "shape2"]).errors, result.errors[:8])
 

@@ -1,11 +1,11 @@
-// Twist bones and helpers are told by their names, and the joints above stand for them.
+// Twist bones and helpers are recognised by their names, and the joints above stand for them.
 #include "skeleton/helper_bones.h"
 
 #include <doctest/doctest.h>
 
 using namespace focal;
 
-TEST_CASE("helpers of several conventions are told from the bones of a body") {
+TEST_CASE("helpers of several conventions are distinguished from the bones of a body") {
   for (const char* name : {"upperarm_twist_01_l", "Bip001 LForeTwist", "CC_Base_L_ElbowShareBone",
                            "lThighTwist", "LeftForeArmRoll", "elbow_helper.R", "KneeCorrective_L"})
     CHECK(is_helper_bone(name));

@@ -127,7 +127,7 @@ TEST_CASE("a fixed joint stays to the bit, the other side follows it") {
   CHECK(place_of(joints[2]) == Vector3(-(*fixed[3])[0], (*fixed[3])[1], (*fixed[3])[2]));
 }
 
-TEST_CASE("a body that does not stand alike on both sides gets bones of the same lengths, and that is told") {
+TEST_CASE("a body that does not stand alike on both sides gets bones of the same lengths, and a warning") {
   Lopsided body{{Vector3::UnitX(), 0}};
   for (int v = 0; v < body.mesh.positions.rows(); v += 2)
     body.mesh.positions.row(v) += 0.2 * body.any().transpose();

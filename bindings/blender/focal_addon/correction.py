@@ -48,7 +48,7 @@ cancels"""
 
 
     @property
-    def tells(self):
+    def shows_progress(self):
         return not self.with_step
 
     def _finish(self, context, job):
@@ -57,7 +57,7 @@ cancels"""
             bpy.ops.ed.undo_push(message="Correction")
         return done
 
-    def tell_cancelled(self):
+    def report_cancelled(self):
         self.report({"INFO"}, "Cancelled: the correction stays, the others were not looked for")
 
 

@@ -121,7 +121,7 @@ class JobOperator:
 
     _job = None
     _target = None  # what prepare() read for apply()
-    tells = True  # in the status bar, unless another operator below this one does
+    shows_progress = True  # in the status bar, unless another operator below this one does
     _timer = None
     _ticks = 0
 
@@ -185,7 +185,7 @@ class JobOperator:
             bpy.ops.object.mode_set(mode="OBJECT")
         return Job(self.prepare(context))
 
-    def tell_cancelled(self):
+    def report_cancelled(self):
         self.report({"INFO"}, "Cancelled: nothing was changed")
 
     def refuse(self, message):
@@ -197,7 +197,7 @@ class JobOperator:
         context.window_manager.progress_update(100 * self._job.progress())
         if self._ticks % _REDRAW_EVERY == 0:
             redraw_sidebars(context)
-            if self.tells:
+            if self.shows_progress:
                 text = f"{self._job.step_name()}, {100 * self._job.progress():.0f} %      Esc: cancel"
                 context.workspace.status_text_set(text)
 
@@ -206,14 +206,14 @@ class JobOperator:
         _current = None
         context.window_manager.event_timer_remove(self._timer)
         context.window_manager.progress_end()
-        if self.tells:
+        if self.shows_progress:
             context.workspace.status_text_set(None)
         redraw_sidebars(context)
 
     def _finish(self, context, job):
         try:
             if job.cancelled:
-                self.tell_cancelled()
+                self.report_cancelled()
                 return {"CANCELLED"}
             if job.failure:
                 return self.refuse(job.failure)

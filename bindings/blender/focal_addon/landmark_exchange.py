@@ -122,7 +122,7 @@ class LandmarksOfFile:
 
 
 def _entries(gltf, vnode):
-    """The landmarks that the file tells of a mesh, or None."""
+    """The landmarks that the file has for a mesh, or None."""
     obj = getattr(vnode, "blender_object", None)
     if getattr(vnode, "mesh_node_idx", None) is None or not isinstance(obj, bpy.types.Object) or obj.type != "MESH":
         return None

@@ -5,6 +5,8 @@ Positions are in the coordinates of a glTF file: metres, Y up. Blender's Z up is
 import json
 import os
 
+from .json_file import read_json
+
 
 class LandmarkFileError(Exception):
     """What is wrong with the file, in words for the user."""
@@ -12,13 +14,7 @@ class LandmarkFileError(Exception):
 
 def read(path):
     """A list of dicts: name, and of position, triangle with barycentric, vertex, status, confidence what is there."""
-    try:
-        with open(path, encoding="utf-8") as file:
-            document = json.load(file)
-    except OSError as error:
-        raise LandmarkFileError(f"{path}: {error.strerror}") from error
-    except ValueError as error:
-        raise LandmarkFileError(f"{path} is no JSON: {error}") from error
+    document = read_json(path, LandmarkFileError)
     if not isinstance(document, dict) or document.get("format") != "focal-landmarks":
         raise LandmarkFileError(f'{path} holds no focal landmarks: "format": "focal-landmarks" is missing. '
                                 "Other formats: focal convert IN OUT.json")

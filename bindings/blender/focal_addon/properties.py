@@ -98,7 +98,7 @@ class FocalName(bpy.types.PropertyGroup):
 
 class FocalJoint(bpy.types.PropertyGroup):
     """A joint of a skeleton template, see docs/rigs.md."""
-    name: StringProperty(name="Name", description="Of the bone; .L and .R, or left and right, tell sides apart")
+    name: StringProperty(name="Name", description="Of the bone; .L and .R, or left and right, distinguish the sides")
     parent: StringProperty(name="Parent", description="The joint that it hangs on; empty: a root")
     kind: EnumProperty(name="Lies", items=(
         ("CENTRE", "Inside", "In the middle of the limb under its landmarks, at the mean of these places"),

@@ -2,6 +2,8 @@
 import json
 import os
 
+from .json_file import read_json
+
 _FOLDER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "templates")
 _PLACES = ("centre", "surface", "between")
 
@@ -17,13 +19,7 @@ def shipped():
 
 
 def read(path):
-    try:
-        with open(path, encoding="utf-8") as file:
-            template = json.load(file)
-    except OSError as error:
-        raise TemplateError(f"{path}: {error.strerror}") from error
-    except ValueError as error:
-        raise TemplateError(f"{path} is no JSON: {error}") from error
+    template = read_json(path, TemplateError)
     if not isinstance(template, dict) or template.get("format") != "focal-skeleton-template":
         raise TemplateError(f'{path} is no skeleton template: "format": "focal-skeleton-template" is missing')
     if not isinstance(template.get("joints"), list) or not all(isinstance(j, dict) and j.get("name") for j in template["joints"]):

@@ -38,7 +38,7 @@ def view_region(area, x, y):
 
 
 def over_gizmo(context, x, y):
-    """Whether the navigation gizmo is at this place of the window: Blender does not tell which gizmo the mouse is over."""
+    """Whether the navigation gizmo is at this place of the window: Blender does not say which gizmo the mouse is over."""
     area, view = context.area, context.preferences.view
     if area is None or area.type != "VIEW_3D" or not (area.spaces.active.show_gizmo and area.spaces.active.show_gizmo_navigate):
         return False

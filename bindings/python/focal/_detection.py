@@ -243,7 +243,7 @@ class Detection(Handle):
         fixed_joints       {name in the model or template: (x, y, z)}: joints that are known, as after a correction by hand. They
                            lie there to the bit; the others follow, less the farther along the bones
         ground_root        one more joint, "root", first and above all others, on the ground
-        drop_helpers       without twist bones and helpers (told by their names); the joints above get what they moved
+        drop_helpers       without twist bones and helpers (recognised by their names); the joints above get what they moved
 
         Error: INVALID_ARGUMENT (no template, and the model was not learned of rigged characters; fewer than three
         landmarks found), INVALID_FILE (the template is no JSON); Cancelled.

@@ -105,7 +105,7 @@ def _position_of(landmark: str, mark: Mark) -> tuple[float, float, float]:
 
 
 def _json_text(entries: list[dict[str, Any]], mesh: str = "") -> str:
-    """One landmark a line: such files are read, compared and mended by people."""
+    """One landmark a line: people read, compare and edit such files."""
     of = f', "mesh": {json.dumps(mesh, ensure_ascii=False)}' if mesh else ""
     lines = ",\n".join("  " + json.dumps(entry, ensure_ascii=False) for entry in entries)
     return '{\n "format": "focal-landmarks", "version": 1' + of + ',\n "landmarks": [\n' + lines + "\n ]\n}\n"

@@ -198,9 +198,9 @@ def _fold_count(folds: int | None, meshes: int) -> int:
     return folds or min(meshes, 10)
 
 
-def _step(tell: Progress | None, number: int, count: int, what: str) -> Progress | None:
+def _step(report: Progress | None, number: int, count: int, what: str) -> Progress | None:
     """Progress of one of several calls as progress of all of them."""
-    if tell is None:
+    if report is None:
         return None
-    told = tell
-    return lambda progress, stage: told((number + progress) / count, f"{what}: {stage}" if stage else what)
+    call = report
+    return lambda progress, stage: call((number + progress) / count, f"{what}: {stage}" if stage else what)

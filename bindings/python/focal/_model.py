@@ -208,7 +208,7 @@ class Model(Handle):
                     absent_confidence: float | None = None, keep_votes: bool | None = None, seed: int | None = None,
                     task: Task | None = None, on_progress: Progress | None = None) -> list[Detection]:
         """detect() on each of many meshes, one a thread: more of them a second than one call after another. All of them
-        or none: an Error tells the number of the mesh that failed. Progress counts meshes: on_progress(0.3, "3 of 10 meshes")."""
+        or none: an Error names the number of the mesh that failed. Progress counts meshes: on_progress(0.3, "3 of 10 meshes")."""
         handles = [handle_of(mesh, Mesh, "meshes") for mesh in meshes]
         given_params = given_of(quality=quality, sampling_rate=sampling_rate, max_samples=max_samples, peaks_per_landmark=peaks_per_landmark,
                                 found_confidence=found_confidence, absent_confidence=absent_confidence, keep_votes=keep_votes, seed=seed)
@@ -291,8 +291,8 @@ def _analysis_again(mesh: Mesh, data: bytes) -> Analysis:
         return Analysis.load(mesh, path)
 
 
-def _counted(tell: Progress | None, count: int) -> Progress | None:
-    if tell is None:
+def _counted(report: Progress | None, count: int) -> Progress | None:
+    if report is None:
         return None
-    told = tell
-    return lambda progress, _: told(progress, f"{round(progress * count)} of {count} meshes")
+    call = report
+    return lambda progress, _: call(progress, f"{round(progress * count)} of {count} meshes")
