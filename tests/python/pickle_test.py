@@ -88,7 +88,7 @@ class Detections(Case):
         self.assertEqual((other.info, other.warnings, other.seconds), (one.info, one.warnings, one.seconds))
         self.assertEqual(repr(other), repr(one))
 
-    def test_what_is_told(self):
+    def test_what_is_known_at_once(self):
         one = model().detect(mesh(), quality="interactive")
         other = again(one)
         self.assertIsNone(other._pointer)  # nothing was found again

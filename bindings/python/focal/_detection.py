@@ -83,13 +83,13 @@ class Detection(Handle):
     _joint_names: list[str] = []
     _origin = (0.0, 0.0, 0.0)  # of the mesh
     _made_of: tuple[Any, Any, dict[str, Any]] | None = None  # model, mesh or analysis, parameters
-    _told: dict[str, Any] | None = None  # of one that came from a pickle
+    _kept: dict[str, Any] | None = None  # of one that came from a pickle
 
     def __reduce__(self) -> tuple[Any, ...]:
         return detection_again, (detection_state(self),)
 
     def _made_now(self) -> Any:
-        if self._made_of is None or self._told is None:
+        if self._made_of is None or self._kept is None:
             return None
         with self._borrowing:
             if self._pointer is None:
@@ -101,10 +101,10 @@ class Detection(Handle):
     @property
     def closed(self) -> bool:
         """Whether close() has been called."""
-        return self._pointer is None and self._told is None
+        return self._pointer is None and self._kept is None
 
     def close(self) -> None:
-        self._told = self._made_of = None
+        self._kept = self._made_of = None
         super().close()
 
     def _facts(self) -> str:
@@ -121,8 +121,8 @@ class Detection(Handle):
 
     @property
     def landmarks(self) -> list[Landmark]:
-        if self._told:
-            return list(self._told["landmarks"])
+        if self._kept:
+            return list(self._kept["landmarks"])
         struct, found = new(_abi.focal_landmark), []
         with self._borrow() as handle:
             for index in range(library().focal_detection_landmark_count(handle)):
@@ -144,8 +144,8 @@ class Detection(Handle):
     @property
     def info(self) -> dict[str, Any]:
         """landmark_count, warning_count, has_votes, vertex_count, triangle_count, category_fit, backend."""
-        if self._told:
-            return dict(self._told["info"])
+        if self._kept:
+            return dict(self._kept["info"])
         info = new(_abi.focal_detection_info)
         call("focal_detection_get_info", self._handle, ctypes.byref(info))
         return as_dict(info)
@@ -158,8 +158,8 @@ class Detection(Handle):
     @property
     def seconds(self) -> dict[str, float]:
         """Wall time of each stage; "total": all of them and what lies between."""
-        if self._told:
-            return dict(self._told["seconds"])
+        if self._kept:
+            return dict(self._kept["seconds"])
         seconds = new(_abi.focal_stage_seconds)
         call("focal_detection_get_seconds", self._handle, ctypes.byref(seconds))
         return as_dict(seconds)
@@ -167,8 +167,8 @@ class Detection(Handle):
     @property
     def warnings(self) -> list[str]:
         """Plain sentences, the mesh's own first."""
-        if self._told:
-            return list(self._told["warnings"])
+        if self._kept:
+            return list(self._kept["warnings"])
         return self._texts("focal_detection_warning", self.info["warning_count"])
 
     def votes(self, landmark: str | int) -> Floats:

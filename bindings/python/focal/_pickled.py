@@ -85,7 +85,7 @@ def mesh_again(maker: str, content: Any, parameters: dict[str, Any], origin: tup
 
 def detection_state(detection: Detection) -> dict[str, Any]:
     """What is known without the library, and what the rest is computed from on demand."""
-    return {"_told": {"landmarks": detection.landmarks, "info": detection.info, "seconds": detection.seconds,
+    return {"_kept": {"landmarks": detection.landmarks, "info": detection.info, "seconds": detection.seconds,
                       "warnings": detection.warnings},
             "_made_of": detection._made_of, "_joint_names": detection._joint_names, "_origin": detection._origin}
 
