@@ -15,6 +15,7 @@
 #include "landmarks/model_parts.h"
 #include "landmarks/train.h"
 #include "skeleton/detail_training.h"
+#include "skeleton_template.h"
 #include "structs.h"
 #include "task.h"
 #include "training_set.h"
@@ -48,7 +49,7 @@ Preset checked_preset(focal_preset preset) {
 // What does not stand in the parameters: the shapes learned of rigged characters.
 focal_train_params abi_params_of(const ModelObject& object) {
   focal_train_params result = to_abi(object.info.params);
-  if (!object.info.joint_names.empty()) result.rigged_shapes = object.info.shape_count;
+  if (object.learned_skeleton()) result.rigged_shapes = object.info.shape_count;
   return result;
 }
 
@@ -109,10 +110,30 @@ TrainParams checked(const focal_train_params* given) {
 
 }  // namespace
 
+namespace {
+
+// A damaged file can hold one that is none.
+SkeletonTemplate checked_template(const std::string& text, const std::vector<std::string>& landmarks) {
+  try {
+    const SkeletonTemplate result = parse_skeleton_template(text.c_str());
+    check_template(result, landmarks);
+    return result;
+  } catch (const Error& error) {
+    throw Error(Status::invalid_file, std::string("section TMPL: ") + error.what(), "train the model again");
+  }
+}
+
+}  // namespace
+
 focal_model* publish_model(std::shared_ptr<const ContextObject> context, LandmarkModel model) {
   const auto object = std::make_shared<ModelObject>();
   object->context = std::move(context);
   object->info = info_of(model);
+  if (!model.skeleton_template.empty()) {
+    object->by_template = checked_template(model.skeleton_template, model.landmark_names);
+    for (const TemplateJoint& joint : object->by_template->joints)
+      object->info.joint_names.push_back(joint.name);
+  }
   object->model = std::make_shared<const LandmarkModel>(std::move(model));
   return publish(object);
 }
@@ -217,5 +238,12 @@ focal_status focal_model_get_train_params(const focal_model* model, focal_train_
 const char* focal_model_landmark_name(const focal_model* model, uint32_t index) {
   return guarded_value<const char*>(nullptr, [&] {
     return text_at(resolve<ModelObject>(model)->info.landmark_names, index, "the model", "landmarks");
+  });
+}
+
+const char* focal_model_skeleton_template(const focal_model* model) {
+  return guarded_value<const char*>(nullptr, [&] {
+    const auto object = resolve<ModelObject>(model);
+    return object->by_template ? object->model->skeleton_template.c_str() : nullptr;
   });
 }

@@ -1,11 +1,13 @@
 // focal_model: what training makes and detection uses.
 #pragma once
 #include <memory>
+#include <optional>
 
 #include "base/lazy.h"
 #include "context.h"
 #include "handles.h"
 #include "landmarks/landmark_model.h"
+#include "skeleton/skeleton_template.h"
 
 namespace focal {
 
@@ -15,7 +17,10 @@ struct ModelObject {
 
   std::shared_ptr<const ContextObject> context;
   std::shared_ptr<const LandmarkModel> model;
-  ModelInfo info;
+  ModelInfo info;                               // its joints: those of `by_template`, where there is one
+  std::optional<SkeletonTemplate> by_template;  // the skeleton over marked landmarks that it carries
+
+  bool learned_skeleton() const { return !info.joint_names.empty() && !by_template; }
 
   uint64_t file_bytes() const;  // of the model as a file; written once to find out
 

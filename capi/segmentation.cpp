@@ -20,8 +20,11 @@ namespace focal {
 namespace {
 
 // The joint that moves each triangle most.
-std::vector<int32_t> segment_by_skeleton(const Detection& detection, const Execution& execution) {
-  const CharacterRig rig = transfer_rig(detection, execution);
+std::vector<int32_t> segment_by_skeleton(const DetectionObject& object, const Execution& execution) {
+  const Detection& detection = object.detection;
+  const auto& by_template = object.model->by_template;
+  const CharacterRig rig =
+      by_template ? rig_by_template(*by_template, detection, execution) : transfer_rig(detection, execution);
   std::vector<int32_t> joint;
   for (const VertexInfluences& influences : rig.rig.influences)
     joint.push_back(influences[0].weight > 0 ? influences[0].joint : -1);
@@ -34,7 +37,7 @@ std::vector<int32_t> segment(const DetectionObject& object, focal_segmentation m
   const bool has_skeleton = !object.model->info.joint_names.empty();
   if (method == FOCAL_SEGMENTATION_AUTO)
     method = has_skeleton ? FOCAL_SEGMENTATION_SKELETON : FOCAL_SEGMENTATION_GEODESIC;
-  if (method == FOCAL_SEGMENTATION_SKELETON) return segment_by_skeleton(object.detection, execution);
+  if (method == FOCAL_SEGMENTATION_SKELETON) return segment_by_skeleton(object, execution);
   if (method == FOCAL_SEGMENTATION_K_MEANS) return segment_k_means(object.detection, execution);
   return segment_geodesic(object.detection, execution);
 }

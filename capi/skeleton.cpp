@@ -70,9 +70,17 @@ void check(const focal_skeleton_params& params) {
   check_flag("focal_skeleton_params.ground_root", params.ground_root);
   check_reserved("focal_skeleton_params.reserved_2", params.reserved_2);
   check_range("focal_skeleton_params.max_influences", params.max_influences, 1, 2 * most_influences);
-  if (params.skeleton_template && params.animations)
+}
+
+// The caller's, else the one that the model carries; nothing: rigged characters taught it.
+std::optional<SkeletonTemplate> template_of(const focal_skeleton_params& params, const ModelObject& model) {
+  std::optional<SkeletonTemplate> result = model.by_template;
+  if (params.skeleton_template) result = parse_skeleton_template(params.skeleton_template);
+  if (result && params.animations)
     throw Error(Status::invalid_argument, "animations were asked for together with a template",
                 "they need the joints of the characters that taught the model; leave one of the two out");
+  if (result) result->symmetric |= params.symmetric != 0;
+  return result;
 }
 
 void check_names(const focal_skeleton_params& params, size_t joints) {
@@ -241,8 +249,7 @@ focal_status focal_skeleton_create(const focal_detection* detection, const focal
     object->mesh = object->detection->mesh, object->context = object->detection->model->context;
     const focal_skeleton_params how = read_struct(params);
     check(how);
-    std::optional<SkeletonTemplate> by_hand;
-    if (how.skeleton_template) by_hand = parse_skeleton_template(how.skeleton_template);
+    const auto by_hand = template_of(how, *object->detection->model);
     const size_t joint_count =
         by_hand ? by_hand->joints.size() : object->detection->model->info.joint_names.size();
     check_names(how, joint_count);
@@ -252,7 +259,6 @@ focal_status focal_skeleton_create(const focal_detection* detection, const focal
     const Execution execution = object->context->execution_with(lease.task());
     execution.check_cancelled();
     const Detection& found = object->detection->detection;
-    if (by_hand) by_hand->symmetric |= how.symmetric != 0;
     object->rig = by_hand ? rig_by_template(*by_hand, found, execution, how.max_influences, fixed)
                           : transfer_rig(found, execution, how.symmetric != 0, how.max_influences, fixed);
     // Before the joints are renamed: names identify pairs of joints, and those of the model.

@@ -10,7 +10,9 @@
 #include "boundary.h"
 #include "gltf/document.h"
 #include "mesh.h"
+#include "skeleton/skeleton_template.h"
 #include "skeleton/teachers.h"
+#include "skeleton_template.h"
 #include "structs.h"
 #include "surface_points.h"
 
@@ -125,6 +127,19 @@ focal_status focal_training_set_add_rig(focal_training_set* set, const focal_mes
       throw Error(Status::invalid_argument, "the training set has landmark names of its own",
                   "create one for rigged characters with landmark_count 0");
     object->characters.push_back(rigged(*resolve<MeshObject>(mesh)));
+  });
+}
+
+focal_status focal_training_set_set_skeleton(focal_training_set* set, const char* skeleton_template) {
+  return guarded([&] {
+    const auto object = resolve<TrainingSetObject>(set);
+    if (object->set.landmark_names.empty())
+      throw Error(
+          Status::invalid_argument, "the training set was created without landmark names",
+          "a model of rigged characters has their skeleton; templates are for landmarks marked by hand");
+    if (skeleton_template)
+      check_template(parse_skeleton_template(skeleton_template), object->set.landmark_names);
+    object->set.skeleton_template = skeleton_template ? skeleton_template : "";
   });
 }
 

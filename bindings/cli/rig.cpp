@@ -198,7 +198,7 @@ void rig(const RigOptions& options) {
     throw CommandError(
         "the model knows no skeleton",
         "train one on rigged characters: focal train --rigs A.glb -o MODEL; or describe one over its "
-        "landmarks: --template FILE.json");
+        "landmarks: --template FILE.json, here or for 'focal train'");
   const Mesh mesh = load_mesh(context.get(), options.mesh, options);
   auto params = detect_params_of(options.quality, options);
   params.keep_votes = 0;

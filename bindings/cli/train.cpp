@@ -14,7 +14,7 @@ namespace focal_cli {
 namespace {
 
 struct TrainingOptions : CommonOptions, TrainOptions {
-  std::string set, output, split = "train";
+  std::string set, output, skeleton_template, split = "train";
   std::vector<std::string> rigs;
   size_t limit = 0;
 };
@@ -39,6 +39,7 @@ Json report_of(const TrainingOptions& options, const SetFolder& set, const std::
           {"preset", preset_name(info.preset)},
           {"meshes", names},
           {"landmarks", set.landmark_names},
+          {"joints", joint_names_of(model.get())},
           {"samples", info.sample_count},
           {"tree_nodes", info.tree_node_count},
           {"file_bytes", info.file_bytes},
@@ -113,6 +114,11 @@ void train(const TrainingOptions& options) {
   std::vector<const MarkedMesh*> pointers;
   for (const MarkedMesh& mesh : meshes) pointers.push_back(&mesh);
   const TrainingSet training_set = training_set_of(context.get(), set, pointers);
+  if (!options.skeleton_template.empty()) {
+    const std::string text = read_text_file(options.skeleton_template);
+    check(focal_training_set_set_skeleton(training_set.get(), text.c_str()),
+          options.skeleton_template + ": ");
+  }
   const focal_train_params params = train_params_of(options, options);
   const auto model = owned<Model>(focal_model_train, training_set.get(), &params, progress.begin("training"));
   check(focal_model_save(model.get(), options.output.c_str()));
@@ -122,8 +128,10 @@ void train(const TrainingOptions& options) {
   if (options.json) print_json(report);
   if (options.prints_text()) {
     std::cout << "Learned " << set.landmark_names.size() << " landmarks from " << names.size()
-              << " meshes of " << set.name << " in " << fixed_text(seconds, 1) << " s.\n"
-              << options.output << ": " << bytes_text(report["file_bytes"].get<double>()) << "\n";
+              << " meshes of " << set.name << " in " << fixed_text(seconds, 1) << " s.\n";
+    if (const size_t joints = report["joints"].size())
+      std::cout << "It carries a skeleton of " << joints << " joints for 'focal rig'.\n";
+    std::cout << options.output << ": " << bytes_text(report["file_bytes"].get<double>()) << "\n";
   }
 }
 
@@ -143,7 +151,11 @@ void add_train(CLI::App& app) {
           ->type_name("A.glb B.glb ...");
   verb->add_option("-o,--output", options->output, "Model file to write")->type_name("MODEL")->required();
   add_split_options(*verb, options->split, options->limit, "Meshes to learn from");
-  for (const char* of_sets : {"--split", "--limit"})
+  verb->add_option("--template", options->skeleton_template,
+                   "A skeleton over the set's landmarks, which the model then carries for 'focal rig'; "
+                   "docs/rigs.md describes it")
+      ->type_name("FILE.json");
+  for (const char* of_sets : {"--split", "--limit", "--template"})
     if (CLI::Option* option = verb->get_option_no_throw(of_sets)) option->excludes(rigs);
   add_train_options(*verb, *options);
   add_mesh_options(*verb, *options);

@@ -444,6 +444,13 @@ FOCAL_API focal_status focal_training_set_add_vertices(focal_training_set* set, 
  * names; no file kept; no skin; no vertex that a joint moves), INVALID_FILE. */
 FOCAL_API focal_status focal_training_set_add_rig(focal_training_set* set, const focal_mesh* mesh);
 
+/* A skeleton over the marked landmarks, as JSON text (docs/rigs.md describes it), for a set with landmark names. A model trained from
+ * the set carries it, and focal_skeleton_create uses it where no other template is given. NULL: none, as at first. The set stays as it was
+ * on error: INVALID_ARGUMENT (a template that names what the set has not; a set of rigged characters), INVALID_FILE (no JSON),
+ * UNSUPPORTED (another version of the format). */
+FOCAL_API focal_status focal_training_set_set_skeleton(focal_training_set* set,
+                                                       const char* skeleton_template);
+
 /* What is odd about the set of rigged characters, looked at anew with each call of focal_training_set_check: joints that
  * some of them lack, prefixes of names that were put aside, weights that are no numbers, joints all in one place. Plain
  * sentences that number the characters from 1, in the order in which they were added. focal_model_train checks too, and gives
@@ -804,8 +811,8 @@ typedef struct focal_skeleton_params {
      of its vertices have a mirror image) gets bones of the same lengths, and a warning. Default 0. A template may ask for it too. */
   int32_t symmetric;
   /* A skeleton of your own over the model's landmarks, as JSON text (docs/rigs.md describes it); weights
-     then follow from its bones by heat. NULL: the skeleton of the characters that taught the model. With a
-     template, animations is not allowed, and rest_pose only when the template gives one. */
+     then follow from its bones by heat. NULL: the skeleton of the characters that taught the model, or the
+     template that it carries. With a template, animations is not allowed, and rest_pose only when the template gives one. */
   const char* skeleton_template;
   /* Joints that move one vertex, at most: 1 to 8, default 4. Above 4 the file has JOINTS_1 and WEIGHTS_1 too. */
   int32_t max_influences;
@@ -825,10 +832,12 @@ typedef struct focal_skeleton_params {
 
 FOCAL_API focal_status focal_skeleton_params_init(focal_skeleton_params* params, size_t struct_size);
 
-/* The skeleton that a model of rigged characters has learned: number of joints (0: none) and their names,
- * parents first. */
+/* The skeleton that a model of rigged characters has learned, or that a model of marked landmarks carries
+ * (focal_training_set_set_skeleton): number of joints (0: none) and their names, in order. */
 FOCAL_API uint32_t focal_model_joint_count(const focal_model* model);
 FOCAL_API const char* focal_model_joint_name(const focal_model* model, uint32_t index);
+/* The template that the model carries, as it was given; NULL: none. Valid as long as the model. */
+FOCAL_API const char* focal_model_skeleton_template(const focal_model* model);
 
 /* Joints and skin weights for the mesh of a detection, in the pose that it has; about a second. params and
  * task may be NULL. Errors: INVALID_ARGUMENT (no template, and the model was not learned from rigged

@@ -18,7 +18,7 @@
 namespace focal {
 namespace {
 
-constexpr ArchiveKind kind{"FOCALMDL", "model", 1, 3};
+constexpr ArchiveKind kind{"FOCALMDL", "model", 1, 4};
 constexpr int32_t landmark_limit = 4096, name_limit = 4096, joint_limit = 4096;
 constexpr int32_t most = std::numeric_limits<int32_t>::max();
 constexpr float any_number = 1e9F;  // of learned coefficients: finite, and no sum of a few overflows
@@ -321,6 +321,20 @@ void read_skeleton(ByteReader in, LandmarkModel& model) {
   in.expect_end();
 }
 
+// --- TMPL: the skeleton over the landmarks of marked shapes, as JSON; who rigs parses it
+
+constexpr size_t template_limit = 1 << 20;
+
+void write_template(const LandmarkModel& model, ByteWriter& out) { out.text(model.skeleton_template); }
+
+void read_template(ByteReader in, LandmarkModel& model) {
+  model.skeleton_template = in.text("skeleton template");
+  if (model.skeleton_template.empty() || model.skeleton_template.size() > template_limit ||
+      !model.skeleton.empty())
+    in.fail("the skeleton template is empty, too long, or one too many");
+  in.expect_end();
+}
+
 // Reading goes in this order: what later sections are checked against comes first.
 struct Section {
   const char* name;
@@ -338,6 +352,7 @@ constexpr Section sections[] = {
     {"SKEL", write_skeleton, read_skeleton},
     {"EXMP", write_exemplars, read_exemplars},
     {"DETL", write_details, read_details},
+    {"TMPL", write_template, read_template},
 };
 
 // Models of marked shapes have no skeleton, those of preset paper and of old versions no features and exemplars: their files lack the
@@ -346,12 +361,13 @@ bool is_written(const Section& section, const LandmarkModel& model) {
   if (section.write == write_skeleton) return !model.skeleton.empty();
   if (section.write == write_features) return model.params.bulge || model.params.oriented;
   if (section.write == write_details) return !model.details.empty();
+  if (section.write == write_template) return !model.skeleton_template.empty();
   return section.write != write_exemplars || !model.sample_shape.empty();
 }
 
 bool may_lack(const Section& section) {
   return section.read == read_skeleton || section.read == read_features || section.read == read_exemplars ||
-         section.read == read_details;
+         section.read == read_details || section.read == read_template;
 }
 
 }  // namespace

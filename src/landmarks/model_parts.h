@@ -72,6 +72,7 @@ struct LandmarkModel : std::enable_shared_from_this<LandmarkModel> {
   ConstellationStatistics constellation;
   Calibration calibration;
   std::vector<SkeletonJoint> skeleton;  // of the rigged training shapes; empty without any
+  std::string skeleton_template;        // of marked ones: a skeleton over the landmarks, as JSON; empty: none
   std::vector<DetailModel>
       details;  // parts of it with many short bones; of models that are not such a part themselves
 };

@@ -341,6 +341,7 @@ LandmarkModel train(const TrainingSet& set, const TrainParams& params, const Exe
   model.landmark_names = set.landmark_names;
   model.params = params;
   model.skeleton = set.skeleton;
+  model.skeleton_template = set.skeleton_template;
   // Shapes of rigged characters come in other poses and proportions too: copies of copies add little.
   if (!set.skeleton.empty()) model.params.spoiled_copies = std::min(params.spoiled_copies, 1);
   model.params.oriented = params.oriented && !set.skeleton.empty();

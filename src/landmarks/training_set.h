@@ -36,6 +36,7 @@ struct TrainingSet {
   std::vector<std::string> landmark_names;
   std::vector<MarkedShape> shapes;
   std::vector<SkeletonJoint> skeleton;  // empty: no shape has a rig
+  std::string skeleton_template = {};   // over the landmarks, as JSON; empty: none. The model keeps it
 };
 
 }  // namespace focal

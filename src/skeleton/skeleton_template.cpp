@@ -279,6 +279,10 @@ std::vector<Matrix4> rest_of(const SkeletonTemplate& skeleton, const std::vector
 
 }  // namespace
 
+void check_template(const SkeletonTemplate& skeleton, const std::vector<std::string>& landmarks) {
+  rules_of(skeleton, landmarks);
+}
+
 CharacterRig rig_by_template(const SkeletonTemplate& skeleton, const Detection& detection,
                              const Execution& execution, int32_t influences, const FixedJoints& fixed) {
   if (!detection.analysis)

@@ -24,9 +24,13 @@ struct SkeletonTemplate {
   bool symmetric = false;  // see make_symmetric
 };
 
+// Throws invalid_argument (a name that is empty, given twice or not known, none or several of the three places, places that follow from
+// each other in a circle).
+void check_template(const SkeletonTemplate& skeleton, const std::vector<std::string>& landmarks);
+
 // Joints lie inside the body; those whose landmarks are all absent at their parents, with a warning. Weights are those of bone
-// heat. A joint's y axis points along its bone. fixed: in the coordinates of mesh->source. Throws invalid_argument (a name that is empty, given twice or not known, none or
-// several of the three places, places that follow from each other in a circle; a detection without an analysis).
+// heat. A joint's y axis points along its bone. fixed: in the coordinates of mesh->source. Throws what check_template throws, and
+// invalid_argument (a detection without an analysis).
 CharacterRig rig_by_template(const SkeletonTemplate& skeleton, const Detection& detection,
                              const Execution& execution, int32_t influences = most_influences,
                              const FixedJoints& fixed = {});

@@ -15,6 +15,8 @@ def test_training():
     settings.model_path = os.path.join(OUT, "humanoid.focal")
     check(bpy.ops.focal.train() == {"FINISHED"}, "a model is trained")
     check(os.path.getsize(settings.model_path) > 10000, "the model's file is there")
+    carried = sys.modules[MODULE + ".engine"].package().Model.load(settings.model_path).skeleton_template
+    check(carried and "leftUpperArm" in carried, "the model carries the template whose landmarks are all marked")
     step("trained on six")
 
 

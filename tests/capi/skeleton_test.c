@@ -258,6 +258,56 @@ static void check_templates(void) {
   focal_training_set_destroy(set);
 }
 
+/* A model that carries a template rigs by it, now and from its file. */
+static void check_carried_template(void) {
+  focal_training_set *set = shape_training_set(context, RINGS, 3), *rigs = NULL;
+  focal_model *bare = shape_model(set), *model = NULL, *loaded = NULL;
+  focal_mesh *mesh = bare_mesh(), *character = rigged_mesh(0);
+  focal_detection* detection = NULL;
+  focal_skeleton* skeleton = NULL;
+  focal_skeleton_params params;
+  focal_blob* blob = NULL;
+  CHECK(focal_model_skeleton_template(bare) == NULL && focal_model_joint_count(bare) == 0);
+  CHECK_REFUSED(focal_training_set_set_skeleton(set, ONE("\"centre\":[\"nothing\"]")),
+                FOCAL_ERROR_INVALID_ARGUMENT, "nothing");
+  CHECK_REFUSED(focal_training_set_set_skeleton(set, "{"), FOCAL_ERROR_INVALID_FILE, "JSON");
+  CHECK_OK(focal_training_set_create(context, NULL, 0, &rigs));
+  CHECK_REFUSED(focal_training_set_set_skeleton(rigs, good_template), FOCAL_ERROR_INVALID_ARGUMENT,
+                "without landmark names");
+  CHECK_OK(focal_training_set_set_skeleton(set, good_template));
+  model = shape_model(set);
+  CHECK_OK(focal_training_set_set_skeleton(set, NULL));
+  focal_model* without = shape_model(set);
+  CHECK(focal_model_skeleton_template(without) == NULL);
+  CHECK_OK(focal_model_save_memory(model, &blob));
+  CHECK_OK(focal_model_load_memory(context, focal_blob_data(blob), focal_blob_size(blob), &loaded));
+  CHECK(strcmp(focal_model_skeleton_template(loaded), good_template) == 0);
+  CHECK(focal_model_joint_count(loaded) == 3 && strcmp(focal_model_joint_name(loaded, 1), "b.L") == 0);
+  CHECK_OK(focal_model_detect(loaded, mesh, NULL, NULL, &detection));
+  CHECK_OK(focal_skeleton_create(detection, NULL, NULL, &skeleton));
+  check_weights(skeleton, 3);
+  focal_skeleton_destroy(skeleton), skeleton = NULL;
+  CHECK_OK(by_template(detection, ONE("\"share\":0.5"), &skeleton)); /* the caller's goes before it */
+  check_weights(skeleton, 1);
+  focal_skeleton_destroy(skeleton), skeleton = NULL;
+  CHECK_OK(focal_skeleton_params_init(&params, sizeof params));
+  params.animations = character;
+  CHECK_REFUSED(focal_skeleton_create(detection, &params, NULL, &skeleton), FOCAL_ERROR_INVALID_ARGUMENT,
+                "together with a template");
+  focal_mesh_info info;
+  CHECK_OK(focal_mesh_info_init(&info, sizeof info));
+  CHECK_OK(focal_mesh_get_info(mesh, &info));
+  int32_t* parts = malloc(info.triangle_count * sizeof *parts);
+  CHECK_OK(focal_detection_segment(detection, FOCAL_SEGMENTATION_AUTO, NULL, info.triangle_count, parts));
+  for (uint64_t t = 0; t < info.triangle_count; ++t) CHECK(parts[t] >= -1 && parts[t] < 3);
+  free(parts);
+  focal_blob_destroy(blob), focal_detection_destroy(detection);
+  focal_mesh_destroy(mesh), focal_mesh_destroy(character);
+  focal_model_destroy(bare), focal_model_destroy(model), focal_model_destroy(loaded),
+      focal_model_destroy(without);
+  focal_training_set_destroy(set), focal_training_set_destroy(rigs);
+}
+
 static void check_learned(void) {
   focal_training_set* set = NULL;
   focal_mesh *first = rigged_mesh(0), *second = rigged_mesh(0.06f), *bare = bare_mesh(),
@@ -308,6 +358,7 @@ int main(void) {
   CHECK_OK(focal_context_create(NULL, &context));
   check_no_skeleton();
   check_templates();
+  check_carried_template();
   check_learned();
   CHECK_OK(focal_context_destroy(context));
   FINISH();

@@ -218,6 +218,29 @@ TEST_CASE("rig by a template: joints where its landmarks say, or a word on what 
   check_fails(rig, "the skeleton template: JSON");
 }
 
+TEST_CASE(
+    "train by a template: the model carries the skeleton, and a slip of the pen is found before the work") {
+  const ScratchFolder scratch;
+  const std::string file = scratch / "template.json", model = scratch / "a.focal";
+  const std::string train =
+      "train " + eggs().folder() + " --template " + file + " -o " + model + " --eigenpairs 40 --trees 8";
+  const auto write = [&](const std::string& joints) {
+    std::ofstream(file) << R"({"format": "focal-skeleton-template", "version": 1, "joints": [)" << joints
+                        << "]}";
+  };
+  write(R"({"name": "body", "between": ["nose", "tial"]})");
+  check_fails(train, "'tial'");
+  CHECK_FALSE(std::filesystem::exists(model));
+  write(
+      R"({"name": "body", "between": ["nose", "tail"]}, {"name": "tip", "parent": "body", "surface": ["tail"]})");
+  CHECK(focal_json(train)["joints"] == json({"body", "tip"}));
+  CHECK(focal_json("info " + model)["joints"] == json({"body", "tip"}));
+  const std::string rig = "rig " + model + " " + eggs().mesh() + " -o " + (scratch / "a.glb");
+  CHECK(focal_json(rig + " --keep-failed")["joints"][1]["parent"] == "body");
+  check_fails(rig + " --animations " + eggs().mesh(), "together with a template");
+  check_fails("train --rigs " + eggs().mesh() + " --template " + file + " -o " + model, "--template");
+}
+
 TEST_CASE("segment: a label for each triangle, by the landmarks' names") {
   const ScratchFolder scratch;
   const std::string out = " -o " + (scratch / "parts.glb");

@@ -185,6 +185,13 @@ void look_at_mesh(World& world) {
     fuzz::insist(told(focal_mesh_position_of(mesh, &point, position)) == FOCAL_OK, "a vertex has a place");
 }
 
+const char* some_template(World& world) {
+  return world.choose.below(4) == 0
+             ? "{\"format\": 3}"
+             : "{\"format\":\"focal-skeleton-template\",\"version\":1,\"joints\":[{\"name\":\"a\","
+               "\"surface\":[\"nose\"]},{\"name\":\"b\",\"parent\":\"a\",\"centre\":[\"hand.L\"]}]}";
+}
+
 void fill_set(World& world) {
   focal_training_set* set = world.pick<focal_training_set>(sets);
   const auto* mesh = world.pick<focal_mesh>(meshes);
@@ -197,7 +204,10 @@ void fill_set(World& world) {
         {static_cast<float>(world.choose.number()), static_cast<float>(world.choose.number()), 0.5F}};
   }
   const uint64_t count = world.choose.below(8) ? uint32_t{SHAPE_MARKS} : world.choose.below(5);
-  switch (world.choose.below(4)) {
+  switch (world.choose.below(5)) {
+    case 4:
+      told(focal_training_set_set_skeleton(set, some_template(world)));
+      break;
     case 0:
       told(focal_training_set_add(set, mesh, points, count));
       break;
@@ -250,6 +260,7 @@ void load_or_save(World& world) {
     fuzz::insist(info.landmark_count > 0, "a model has landmarks");
   focal_model_landmark_name(world.pick<focal_model>(models), world.choose.byte());
   focal_model_joint_name(world.pick<focal_model>(models), world.choose.byte());
+  focal_model_skeleton_template(world.pick<focal_model>(models));
 }
 
 void detect(World& world) {
@@ -332,11 +343,7 @@ void use_detection(World& world) {
     params.rest_pose = static_cast<int32_t>(world.choose.below(5));
     params.drop_helpers = static_cast<int32_t>(world.choose.below(3));
     params.max_influences = static_cast<int32_t>(world.choose.below(10));
-    params.skeleton_template =
-        world.choose.below(4) == 0
-            ? "{\"format\": 3}"
-            : "{\"format\":\"focal-skeleton-template\",\"version\":1,\"joints\":[{\"name\":\"a\","
-              "\"surface\":[\"nose\"]},{\"name\":\"b\",\"parent\":\"a\",\"centre\":[\"hand.L\"]}]}";
+    params.skeleton_template = some_template(world);
   }
   told(focal_skeleton_create(world.pick<focal_detection>(detections), given, world.pick<focal_task>(tasks),
                              &skeleton));

@@ -213,6 +213,23 @@ TEST_CASE("a skeleton comes back from its bytes, and keeps to its bounds") {
   check_error(error_of(patched(serialise(one), "SKEL", 0, 0)), "SKEL: joint count");
 }
 
+TEST_CASE(
+    "a model of marked shapes keeps its skeleton template, of 1 byte to 1 MiB; one of rigged shapes has "
+    "none") {
+  LandmarkModel model = small_model(Preset::default_preset);
+  for (const size_t size : {size_t{1}, size_t{1} << 20}) {
+    model.skeleton_template.assign(size, 'x');
+    CHECK(parse_model(serialise(model)).skeleton_template == model.skeleton_template);
+  }
+  model.skeleton_template += 'x';
+  check_error(error_of(model), "TMPL: the skeleton template is empty, too long");
+  model.skeleton_template = "x";
+  check_error(error_of(patched(serialise(model), "TMPL", 0, 0)), "TMPL");
+  LandmarkModel rigged = rigged_model();
+  rigged.skeleton_template = "x";
+  check_error(error_of(rigged), "TMPL");
+}
+
 TEST_CASE("features and exemplars keep to their bounds") {
   const LandmarkModel model = small_model_of_exemplars();
   CHECK(error_of(model) == "");

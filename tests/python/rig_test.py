@@ -11,7 +11,7 @@ import struct
 import unittest
 
 import focal
-from support import Case, numpy, rows
+from support import Case, mesh, numpy, rows, training_set
 
 Status = focal.Status
 HUMANOIDS = pathlib.Path(os.environ.get("FOCAL_CHARACTERS", "")) / "humanoid"
@@ -200,6 +200,21 @@ class Rigs(Case):
         self.refused(Status.INVALID_FILE, "", found().rig, skeleton_template="{")
         self.refused(Status.INVALID_ARGUMENT, "", found().rig, skeleton_template=TEMPLATE)
         self.assertRaises(TypeError, found().rig, skeleton_template=3)
+
+    def test_template_in_the_model(self):
+        training = training_set()
+        names = training.landmark_names
+        template = {**TEMPLATE, "joints": [{"name": "first", "centre": names[:1]}, {"name": "second", "parent": "first", "surface": names[1:2]}]}
+        self.refused(Status.INVALID_ARGUMENT, "nowhere", training.set_skeleton, {**TEMPLATE, "joints": [{"name": "a", "centre": ["nowhere"]}]})
+        self.assertRaises(TypeError, training.set_skeleton, 3)
+        training.set_skeleton(template)
+        model = focal.Model.train(training, tree_count=10, learn_confidence=False)
+        self.assertEqual(json.loads(model.skeleton_template), template)
+        self.assertEqual(focal.Model.from_bytes(model.to_bytes()).joint_names, ["first", "second"])
+        rigged = model.detect(mesh()).rig(joint_names={"second": "other"})
+        self.assertEqual([joint.name for joint in rigged.joints], ["first", "other"])
+        training.set_skeleton(None)
+        self.assertIsNone(focal.Model.train(training, tree_count=10, learn_confidence=False).skeleton_template)
 
     def test_parts_by_joints(self):
         labels = [int(label) for label in found().segment()]

@@ -73,7 +73,7 @@ class Target:
         """The detection, from before where there is one; runs in the thread."""
         if not self.ready:
             stage, middle = f"detecting on {self.surface.name}", start
-            model = _loaded(self.model_key)
+            model = self.model()
             if self.known is None:
                 middle += _ANALYSIS_SHARE * (end - start)
                 analysis = self._analyse(model, job.begin(stage, start, middle))
@@ -83,6 +83,9 @@ class Target:
                                  task=job.begin(stage, middle, end))
             self.known = Known(analysis, self.fixed, found)
         return self.known.detection
+
+    def model(self):
+        return _loaded(self.model_key)
 
     def _analyse(self, model, task):
         return model.analyse(self.mesh(), quality=self.quality, task=task)

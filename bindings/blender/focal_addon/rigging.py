@@ -27,7 +27,7 @@ class RigTarget(Target):
         for obj in objects if isinstance(objects, (list, tuple)) else [objects]:
             _check_riggable(obj, settings)
         self.options = {"names": settings.bone_names.lower(), "symmetric": settings.symmetric,
-                        "ground_root": settings.ground_root, "skeleton_template": _template(settings)}
+                        "ground_root": settings.ground_root, "skeleton_template": template_of(settings)}
         self._own = template_edit.as_template(settings)
         self.verdict = ""  # of the rig, when there is one
 
@@ -42,10 +42,18 @@ class RigTarget(Target):
         return detection, skeleton.joints, numbers, weights, skeleton.warnings
 
     def _skeleton(self, detection):
-        """For a model of marks, which has none: the user's joints, else the template whose landmarks it finds."""
-        if self.options["skeleton_template"] is not None or detection.joint_names:
+        """For a model of marks: the user's joints, else the skeleton that it carries, else the template whose landmarks it finds."""
+        if self.options["skeleton_template"] is not None or self.is_of_rigs():
             return self.options["skeleton_template"]
+        if self._own is None and detection.joint_names:
+            return None
         return templates.text_for([found.name for found in detection], self._own)
+
+
+    def is_of_rigs(self):
+        """Whether rigged characters taught the model: its landmarks are its own, which say little."""
+        model = self.model()
+        return bool(model.joint_names) and model.skeleton_template is None
 
 
 def _check_riggable(obj, settings):
@@ -58,7 +66,7 @@ def _check_riggable(obj, settings):
                        "make it single (Object > Relations > Make Single User)")
 
 
-def _template(settings):
+def template_of(settings):
     """The text of the file that the settings name, or None."""
     if not settings.template_path:
         return None
@@ -93,7 +101,7 @@ Esc cancels"""
 def write_rig(context, objects, target, result):
     """Landmarks, one armature, and vertex groups and modifier of each object into the scene; the armature."""
     detection, joints, numbers, weights, _warnings = result
-    if context.scene.focal.rig_landmarks or not detection.joint_names:  # a model of rigs has landmarks of its own, which say little
+    if context.scene.focal.rig_landmarks or not target.is_of_rigs():
         write_landmarks(context, objects, target, detection)
     else:
         remember_character(objects)

@@ -56,6 +56,12 @@ def best_for(landmarks):
     return min(rows, key=lambda row: len(row[2]) / len(landmarks_of(row[1])), default=None)
 
 
+def fits(landmarks):
+    """Whether all landmarks of a shipped one are there."""
+    best = best_for(landmarks)
+    return best is not None and not best[2]
+
+
 def _some(names):
     return ", ".join(names[:8]) + (" ..." if len(names) > 8 else "")
 

@@ -6,10 +6,11 @@ import bpy
 import numpy
 from bpy.props import BoolProperty
 
-from . import engine, gltf, landmark_data
+from . import engine, gltf, landmark_data, template_edit, templates
 from .geometry import Character, Unusable, armature_of, problem_of, remember_character, remembered_character, selected_meshes
 from .jobs import JobOperator
 from .model_files import model_path, path_to_train
+from .rigging import template_of
 
 _DRAFT = {"proxy_vertices": 1500, "tree_count": 10, "learn_confidence": False}
 _MOST_FOLDS = 10
@@ -126,10 +127,20 @@ def parameters(context):
     return dict(_DRAFT) if context.scene.focal.quality == "DRAFT" else {}
 
 
-def learn(meshes, names, options, run_context, task):
+def _skeleton_over(names, settings):
+    """The template that the model carries: the file or the joints that the user names, else a shipped one whose landmarks are all there."""
+    text = template_of(settings)
+    own = template_edit.as_template(settings)
+    if text is None and own is None and not templates.fits(names):
+        return None
+    return text or templates.text_for(names, own)
+
+
+def learn(meshes, names, options, run_context, task, skeleton=None):
     """A model from marked meshes; runs in the thread."""
     focal = engine.package()
     training = focal.TrainingSet(names, context=run_context)
+    training.set_skeleton(skeleton)
     for mesh in meshes:
         known = {name: place for name, place in mesh.marks.items() if name in names}
         training.add(focal.Mesh.from_parts(mesh.parts, context=run_context), known)
@@ -149,11 +160,13 @@ class FOCAL_OT_train(JobOperator, bpy.types.Operator):
         if context.scene.focal.source == "RIGS":
             return _work_on_rigs(context, path, options, run_context)
         meshes, names = marked_meshes(context)
+        skeleton = _skeleton_over(names, context.scene.focal)
 
         def work(job):
-            model = learn(meshes, names, options, run_context, job.begin("training"))
+            model = learn(meshes, names, options, run_context, job.begin("training"), skeleton)
             model.save(path)
-            return f"Learned {len(names)} landmarks from {len(meshes)} meshes"
+            carried = f" and a skeleton of {len(model.joint_names)} joints over them" if skeleton else ""
+            return f"Learned {len(names)} landmarks from {len(meshes)} meshes{carried}"
         return work
 
     def apply(self, context, result):

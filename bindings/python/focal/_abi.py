@@ -485,6 +485,7 @@ FUNCTIONS = {
     "focal_training_set_add": (c_int32, [P(focal_training_set), P(focal_mesh), P(focal_surface_point), c_uint64]),
     "focal_training_set_add_vertices": (c_int32, [P(focal_training_set), P(focal_mesh), P(c_uint32), c_uint64]),
     "focal_training_set_add_rig": (c_int32, [P(focal_training_set), P(focal_mesh)]),
+    "focal_training_set_set_skeleton": (c_int32, [P(focal_training_set), c_char_p]),
     "focal_training_set_check": (c_int32, [P(focal_training_set)]),
     "focal_training_set_warning_count": (c_uint32, [P(focal_training_set)]),
     "focal_training_set_warning": (c_char_p, [P(focal_training_set), c_uint32]),
@@ -546,6 +547,7 @@ FUNCTIONS = {
     "focal_skeleton_params_init": (c_int32, [P(focal_skeleton_params), c_size_t]),
     "focal_model_joint_count": (c_uint32, [P(focal_model)]),
     "focal_model_joint_name": (c_char_p, [P(focal_model), c_uint32]),
+    "focal_model_skeleton_template": (c_char_p, [P(focal_model)]),
     "focal_skeleton_create": (c_int32, [
         P(focal_detection), P(focal_skeleton_params), P(focal_task), P(P(focal_skeleton))]),
     "focal_skeleton_destroy": (c_int32, [P(focal_skeleton)]),

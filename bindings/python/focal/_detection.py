@@ -113,7 +113,7 @@ class Detection(Handle):
 
     @property
     def joint_names(self) -> list[str]:
-        """Of the skeleton that the model learned of rigged characters; empty when it has none."""
+        """Of the model's skeleton, see Model.joint_names."""
         return list(self._joint_names)
 
     def __init__(self) -> None:

@@ -143,8 +143,15 @@ class Model(Handle):
 
     @property
     def joint_names(self) -> list[str]:
-        """Of the skeleton that it learned of rigged characters, parents first; empty when it has none."""
+        """Of the skeleton that it learned of rigged characters, parents first, or of the template that it carries; empty when it
+        has neither."""
         return self._texts("focal_model_joint_name", library().focal_model_joint_count(self._handle))
+
+    @property
+    def skeleton_template(self) -> str | None:
+        """The skeleton over its marked landmarks that it carries, as JSON text; see TrainingSet.set_skeleton()."""
+        text = library().focal_model_skeleton_template(self._handle)
+        return None if text is None else str(text, "utf-8")
 
     def detect(self, mesh: Mesh | Analysis, *, quality: _abi.Quality | str | None = None,
                sampling_rate: float | None = None, max_samples: int | None = None,

@@ -148,26 +148,30 @@ def _put_joints(params: _abi.focal_bind_params, joints: Sequence[Joint | Mapping
     params._blocks = blocks  # their memory lives as long as the struct
 
 
+def template_text(given: str | Mapping[str, Any] | None) -> str | None:
+    """A skeleton template as JSON text."""
+    return given if given is None or isinstance(given, str) else json.dumps(_mapping(given, "skeleton_template"))
+
+
 def skeleton_params(known: list[str], *, names: Any, joint_names: Any, skeleton_template: Any, fixed_joints: Any,
                     origin: tuple[float, float, float], **fields: Any) -> _abi.focal_skeleton_params:
-    """known: the model's joint names, which a mapping of names is looked up in."""
+    """known: the joint names of the model; a template has its own."""
     if names is not None:
         names = choice(_abi.BoneNames, names, "names")
-    if skeleton_template is not None and not isinstance(skeleton_template, str):
-        skeleton_template = json.dumps(_mapping(skeleton_template, "skeleton_template"))
+    skeleton_template = template_text(skeleton_template)
     animations = fields.pop("animations")
     if fields.get("rest_pose") is not None:
         fields["rest_pose"] = _pose(fields["rest_pose"])
     params: _abi.focal_skeleton_params = fill(new(_abi.focal_skeleton_params), names=names, skeleton_template=skeleton_template, **fields)
     if animations is not None:
         params.animations = animations
+    own = known if params.skeleton_template is None else _template_joints(params.skeleton_template)
     if fixed_joints is not None:
-        own = known if params.skeleton_template is None else _template_joints(params.skeleton_template)
         places = _fixed_places(own, _mapping(fixed_joints, "fixed_joints"), origin)
         params.fixed_joints, params.fixed_joint_count = places.pointer, places.rows
         params._fixed_places = places  # its memory lives as long as the struct
     if joint_names is not None:
-        texts = _joint_texts(known, joint_names)
+        texts = _joint_texts(own, joint_names)
         params.joint_names = (ctypes.c_char_p * len(texts))(*texts)
         params.joint_name_count = len(texts)
     return params

@@ -11,6 +11,7 @@ from ._context import Context, context_or_default
 from ._handle import Handle, handle_of
 from ._library import call, create, library
 from ._mesh import NO_VERTEX, Mesh, is_number, marked_point
+from ._skeleton import template_text
 from ._values import Mark, integer, text
 
 
@@ -94,6 +95,16 @@ class TrainingSet(Handle):
         handle = handle_of(mesh, Mesh, "mesh")
         with self._changed():
             call("focal_training_set_add_rig", self._handle, handle)
+
+    def set_skeleton(self, skeleton_template: str | Mapping[str, Any] | None) -> None:
+        """A skeleton over the marked landmarks, as JSON text or as a mapping (docs/rigs.md): models trained from the set carry it, and
+        Detection.rig() uses it. None: no skeleton, as at first.
+
+        Error: INVALID_ARGUMENT (it names what the set has not; a set of rigged characters), INVALID_FILE (no JSON).
+        """
+        given = template_text(skeleton_template)
+        with self._changed():
+            call("focal_training_set_set_skeleton", self._handle, None if given is None else text(given, "skeleton_template"))
 
     def check(self) -> list[str]:
         """What is odd about the rigged characters, in sentences that number them from 1: joints that some of them lack,
