@@ -54,7 +54,7 @@ install_viewers() {
   [ -d "$tools/node_modules/three" ] && cmp -s "$wanted" "$tools/package.json" && return
   mkdir -p "$tools"
   cp "$wanted" "$tools/package.json"
-  echo "bootstrap: fetching gltf-validator and three through npm into build/tools"
+  echo "bootstrap: fetching the packages of tests/viewers/package.json through npm into build/tools"
   npm install --prefix "$tools" --ignore-scripts --no-package-lock --no-audit --no-fund --loglevel=error \
     --fetch-retries=1 --fetch-timeout=20000 > "$tools/npm.log" 2>&1 ||
     echo "bootstrap: npm could not fetch them (see build/tools/npm.log); tests/viewers will be skipped"

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -121,6 +122,21 @@ inline focal::TriangleMesh with_radius(focal::TriangleMesh mesh,
     mesh.positions.row(v) = radius(direction) * direction;
   }
   return mesh;
+}
+
+// Each directed edge once, and its opposite too: closed, oriented, manifold along edges.
+inline bool is_closed(const focal::TriangleMesh& mesh) {
+  std::set<std::pair<int32_t, int32_t>> directed;
+  for (int32_t t = 0; t < mesh.triangle_count(); ++t)
+    for (int i = 0; i < 3; ++i)
+      if (!directed.emplace(mesh.triangles(t, i), mesh.triangles(t, (i + 1) % 3)).second) return false;
+  for (const auto& [a, b] : directed)
+    if (!directed.contains({b, a})) return false;
+  return true;
+}
+
+inline void turn_over(focal::TriangleMesh& mesh, int32_t t) {
+  std::swap(mesh.triangles(t, 1), mesh.triangles(t, 2));
 }
 
 inline Eigen::Matrix3d random_rotation(focal::Random& random) {

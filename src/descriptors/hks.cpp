@@ -9,13 +9,13 @@ namespace {
 
 constexpr int32_t dimension = 96;
 // The times of SI-HKS (Xia et al. 2016, Section 5): 2^1 to 2^25 on a surface of this area, in even steps of the exponent.
-constexpr double first_exponent = 1, last_exponent = 25, reference_area = 2e4;
+constexpr double first_exponent = 1, last_exponent = 25, shape_google_area = 2e4;
 
 Matrix weights(const Vector& lambda, double area) {
   Matrix decay(lambda.size(), dimension);
   for (int32_t k = 0; k < dimension; ++k) {
     const double t = std::exp2(first_exponent + k * (last_exponent - first_exponent) / (dimension - 1));
-    decay.col(k) = (-lambda.array() * area / reference_area * t).exp();
+    decay.col(k) = (-lambda.array() * area / shape_google_area * t).exp();
   }
   return decay;
 }

@@ -38,8 +38,8 @@ int32_t step_of(double share, int32_t steps) {
   return std::clamp(static_cast<int32_t>(std::floor(share * steps)), 0, steps - 1);
 }
 
-RowMatrix describe(const DescribedSurface& surface, std::span<const int32_t> vertices,
-                   const Execution& execution) {
+RowMatrix describe_shape_context(const DescribedSurface& surface, std::span<const int32_t> vertices,
+                                 const Execution& execution) {
   const double radius = support_radius * std::sqrt(surface.operators.area);
   RowMatrix result = RowMatrix::Zero(vertices.size(), shells * elevations * azimuths);
   parallel_for_ranges(execution, result.rows(), 32, [&](int64_t begin, int64_t end) {
@@ -66,7 +66,7 @@ RowMatrix describe(const DescribedSurface& surface, std::span<const int32_t> ver
 }  // namespace
 
 DescriptorKind unique_shape_context_descriptor() {
-  return {"unique-shape-context", shells * elevations * azimuths, describe};
+  return {"unique-shape-context", shells * elevations * azimuths, describe_shape_context};
 }
 
 }  // namespace focal

@@ -20,7 +20,7 @@ uint32_t little_endian_at(std::span<const std::byte> bytes, size_t at) {
   return value;
 }
 
-Error broken(const std::string& what) {
+Error broken_file(const std::string& what) {
   return Error(Status::invalid_file, "GLB: " + what,
                "the file is truncated or damaged; copy or export it again");
 }
@@ -32,36 +32,36 @@ struct Chunk {
 
 // Takes the next chunk off the front of `bytes`.
 Chunk take_chunk(std::span<const std::byte>& bytes) {
-  if (bytes.size() < kChunkHeaderSize) throw broken("a chunk header is cut off");
+  if (bytes.size() < kChunkHeaderSize) throw broken_file("a chunk header is cut off");
   const size_t length = little_endian_at(bytes, 0);
   if (length > bytes.size() - kChunkHeaderSize)
-    throw broken("a chunk of " + std::to_string(length) + " bytes where " +
-                 std::to_string(bytes.size() - kChunkHeaderSize) + " are left");
+    throw broken_file("a chunk of " + std::to_string(length) + " bytes where " +
+                      std::to_string(bytes.size() - kChunkHeaderSize) + " are left");
   const Chunk chunk{little_endian_at(bytes, 4), bytes.subspan(kChunkHeaderSize, length)};
   bytes = bytes.subspan(kChunkHeaderSize + length);
   return chunk;
 }
 
 void open_binary(std::span<const std::byte> bytes, GltfContainer& container) {
-  if (bytes.size() < kHeaderSize) throw broken("the header is cut off");
+  if (bytes.size() < kHeaderSize) throw broken_file("the header is cut off");
   const uint32_t version = little_endian_at(bytes, 4);
   if (version != 2)
     throw Error(Status::unsupported, "GLB of version " + std::to_string(version),
                 "convert the file to glTF 2.0");
   const size_t length = little_endian_at(bytes, 8);
   if (length < kHeaderSize || length > bytes.size())
-    throw broken("the header announces " + std::to_string(length) + " bytes, the file has " +
-                 std::to_string(bytes.size()));
+    throw broken_file("the header announces " + std::to_string(length) + " bytes, the file has " +
+                      std::to_string(bytes.size()));
   auto left = bytes.subspan(kHeaderSize, length - kHeaderSize);
   const Chunk first = take_chunk(left);
-  if (first.type != kJson || first.data.empty()) throw broken("the first chunk is not JSON");
+  if (first.type != kJson || first.data.empty()) throw broken_file("the first chunk is not JSON");
   container.json = first.data;
   container.rest = left;
   while (!left.empty()) {
     const Chunk chunk = take_chunk(left);
-    if (chunk.type == kJson) throw broken("two JSON chunks");
+    if (chunk.type == kJson) throw broken_file("two JSON chunks");
     if (chunk.type != kBin) continue;
-    if (container.has_bin) throw broken("two BIN chunks");
+    if (container.has_bin) throw broken_file("two BIN chunks");
     container.bin = chunk.data;
     container.has_bin = true;
   }

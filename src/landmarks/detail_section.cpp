@@ -8,7 +8,7 @@
 namespace focal {
 namespace {
 
-constexpr float farthest = 1e6F;  // of a part's joints in its frame, where the mean joint lies at 1
+constexpr float farthest_joint = 1e6F;  // of a part's joints in its frame, where the mean joint lies at 1
 
 // The part's own file, which believes nothing of what it reads either.
 std::shared_ptr<const LandmarkModel> read_part(ByteReader& in, size_t joints) {
@@ -28,12 +28,12 @@ DetailModel read_detail(ByteReader& in, const std::vector<SkeletonJoint>& skelet
   const auto last = static_cast<int32_t>(skeleton.size()) - 1;
   DetailModel detail;
   detail.joint = in.i32("root of a part", 0, last);
-  detail.start = in.f32("start of a part", -farthest, farthest);
+  detail.start = in.f32("start of a part", -farthest_joint, farthest_joint);
   const int32_t joints = in.count("joint count", 4 * 32, 1);
   for (int32_t i = 0; i < joints; ++i) {
     detail.joints.push_back(in.i32("joint", 0, last));
     Vector3& place = detail.reference.emplace_back();
-    for (double& x : place) x = in.f32("place", -farthest, farthest);
+    for (double& x : place) x = in.f32("place", -farthest_joint, farthest_joint);
   }
   if (std::find(detail.joints.begin(), detail.joints.end(), detail.joint) == detail.joints.end())
     in.fail("a part lacks its root");

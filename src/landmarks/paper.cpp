@@ -12,7 +12,7 @@ namespace focal {
 namespace {
 
 constexpr int lanes = Distance::lanes;
-constexpr double mu = 5;                // Section 5: weight factor
+constexpr double isoline_decay = 5;     // Section 5: weight factor
 constexpr float neighbourhood = 0.02f;  // Section 5: radius over which votes are averaged
 
 // +1 on the side to which the symmetry plane's normal points, -1 on the other (Section 4.1).
@@ -120,7 +120,7 @@ TwoVotes cast_votes(const SurfaceAnalysis& analysis, const RowMatrixf radii[2], 
                                         RowMatrixf& votes = partial[first / lanes].sign[s];
                                         votes = RowMatrixf::Zero(n, radii[s].cols());
                                         add_isoline_votes(radii[s].middleRows(from + first, count),
-                                                          scaled.data(), count, edges, mu, votes);
+                                                          scaled.data(), count, edges, isoline_decay, votes);
                                       }
                                     });
     for (const TwoVotes& part : partial)
@@ -160,7 +160,7 @@ TwoVotes mean_votes(const SurfaceAnalysis& analysis, const RowMatrixf radii[2], 
   const Eigen::Index L = radii[0].cols();
   RowMatrixf both(radii[0].rows(), 2 * L);
   both << radii[0], radii[1];
-  const RowMatrixf votes = analysis.on_backend->isoline_votes(analysis.samples, both, mu,
+  const RowMatrixf votes = analysis.on_backend->isoline_votes(analysis.samples, both, isoline_decay,
                                                               edges_of(analysis.surface()), neighbourhood);
   return {{votes.leftCols(L), votes.rightCols(L)}};
 }

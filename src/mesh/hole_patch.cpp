@@ -224,14 +224,15 @@ bool Patch::flip_edges() {
   return !added.empty();
 }
 
-using Neighbours = std::vector<std::set<int32_t>>;
+using NeighbourSets = std::vector<std::set<int32_t>>;
 
 // The umbrella of each vertex of a patch, mean of its neighbours less itself: umbrella * inner positions + constant.
 struct Umbrellas {
   Matrix umbrella, constant;
 };
 
-Umbrellas umbrellas_of(const HoleLoop& loop, const std::vector<Vector3>& positions, const Neighbours& near) {
+Umbrellas umbrellas_of(const HoleLoop& loop, const std::vector<Vector3>& positions,
+                       const NeighbourSets& near) {
   const auto n = static_cast<int32_t>(loop.positions.size()), all = static_cast<int32_t>(positions.size());
   Umbrellas result{Matrix::Zero(all, all - n), Matrix::Zero(all, 3)};
   for (int32_t v = 0; v < all; ++v) {
@@ -261,7 +262,7 @@ void Patch::fair(bool is_smooth) {
   const auto n = static_cast<int32_t>(loop.positions.size()), all = static_cast<int32_t>(positions.size());
   const int32_t inner = all - n;
   if (inner == 0) return;
-  Neighbours near(all);
+  NeighbourSets near(all);
   for (const auto& t : triangles)
     for (int i = 0; i < 3; ++i) near[t[i]].insert(t[(i + 1) % 3]), near[t[(i + 1) % 3]].insert(t[i]);
   const auto [umbrella, constant] = umbrellas_of(loop, positions, near);

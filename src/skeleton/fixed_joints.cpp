@@ -6,7 +6,7 @@
 namespace focal {
 namespace {
 
-constexpr double least_length = 1e-9;  // of a bone that has a direction
+constexpr double shortest_bone = 1e-9;  // of a bone that has a direction
 
 // Per joint the length of the bone to its parent, no shorter than a trifle of the reach.
 std::vector<double> bone_lengths(const MovableSkeleton& skeleton, double reach) {
@@ -55,7 +55,7 @@ void follow(const FixedJoints& fixed, double reach, const MovableSkeleton& skele
   const std::vector<Vector3> after = bone_directions(skeleton.parent, skeleton.place, skeleton.tip);
   for (size_t j = 0; j < moved.size(); ++j) {
     if (fixed[j]) skeleton.place[j] = *fixed[j];
-    if (before[j].norm() > least_length && after[j].norm() > least_length)
+    if (before[j].norm() > shortest_bone && after[j].norm() > shortest_bone)
       skeleton.turn[j] =
           Eigen::Quaterniond::FromTwoVectors(before[j], after[j]).toRotationMatrix() * skeleton.turn[j];
   }

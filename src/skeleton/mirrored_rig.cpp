@@ -54,7 +54,7 @@ MirrorPlane plane_of_joints(const std::vector<Matrix4>& frames, const std::vecto
 }
 
 // Of points of one place the smallest number: numbers of the caller's vertices, which may be split along seams.
-std::vector<int32_t> first_at_place(const MatrixX3& positions) {
+std::vector<int32_t> first_at_same_place(const MatrixX3& positions) {
   std::vector<int32_t> order(static_cast<size_t>(positions.rows())), first(order.size());
   std::iota(order.begin(), order.end(), 0);
   const auto key = [&](int32_t v) { return std::tuple(positions(v, 0), positions(v, 1), positions(v, 2)); };
@@ -148,7 +148,10 @@ class MirroredWeights {
  public:
   MirroredWeights(const MirroredVertices& vertices, const std::vector<int32_t>& other,
                   const MatrixX3& positions, Rig& rig)
-      : other_(other), first_(first_at_place(positions)), made_(first_.size()), is_made_(first_.size(), 0) {
+      : other_(other),
+        first_(first_at_same_place(positions)),
+        made_(first_.size()),
+        is_made_(first_.size(), 0) {
     most_ = static_cast<size_t>(rig.more.empty() ? most_influences : 2 * most_influences);
     std::vector<std::vector<Influence>> at(first_.size());
     for (size_t v = 0; v < first_.size(); ++v)
@@ -254,7 +257,7 @@ std::string percent(double share) { return std::to_string(std::lround(100 * shar
 
 MirroredVertices mirrored_vertices(const MatrixX3& positions, const MirrorPlane& near) {
   const double size = diagonal(positions);
-  const std::vector<int32_t> first = first_at_place(positions);
+  const std::vector<int32_t> first = first_at_same_place(positions);
   std::vector<int32_t> places;
   for (size_t v = 0; v < first.size(); ++v)
     if (first[v] == static_cast<int32_t>(v)) places.push_back(first[v]);

@@ -10,7 +10,7 @@
 namespace focal {
 namespace {
 // Lengths in extents of the mesh, areas in its area. Chosen on characters of game packs.
-constexpr double same_place = 5e-4;  // vertices that touch
+constexpr double touching = 5e-4;  // vertices that touch
 constexpr double most_rigid_area = 0.4, small_extent = 0.45, tiny_extent = 0.2;
 constexpr float nearly_one = 0.9F;      // share of the main joint in a part of any form that is rigid
 constexpr float one_bone = 0.75F;       // in a small one that does not bend with a joint
@@ -63,7 +63,7 @@ RowMatrixf lifted(const RowMatrixf& weights, const SurfaceAnalysis& analysis, co
 
 // Vertices at one place take the mean of their weights, so that seams between parts stay closed.
 void close_seams(RowMatrixf& weights, const MatrixX3& positions) {
-  const std::vector<int32_t> first = first_at_place(positions, same_place * extent_of(positions));
+  const std::vector<int32_t> first = first_at_place(positions, touching * extent_of(positions));
   std::vector<float> count(first.size(), 1);
   for (size_t v = 0; v < first.size(); ++v)
     if (first[v] != static_cast<int32_t>(v))

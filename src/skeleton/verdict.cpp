@@ -54,7 +54,7 @@ constexpr double doubted_factor = 0.85;
 
 // Lengths, of the longest side of the body's box.
 constexpr double far_outside = 0.1, longest_bone = 0.6, no_length = 0.004, real_length = 0.015,
-                 one_place = 0.01, over_the_middle = 0.03;
+                 merged_gap = 0.01, over_the_middle = 0.03;
 constexpr double stretch_allowed = 1.5;  // of the longest such bone of the training characters
 constexpr double least_ratio = 1e-3;     // lengths below it count alike
 
@@ -210,7 +210,7 @@ void measure_sides(const Figure& figure, const std::vector<Figure>& teachers, Ri
     if (!figure.is_left[j]) continue;
     Range taught;
     for (const Figure& teacher : teachers) taught.add(teacher.gap(j));
-    ++pairs, merged += figure.gap(j) < one_place && (taught.count == 0 || taught.least > real_length);
+    ++pairs, merged += figure.gap(j) < merged_gap && (taught.count == 0 || taught.least > real_length);
   }
   out.merged_share = share(merged, pairs);
   const auto middle = middle_of(figure);

@@ -17,7 +17,7 @@ using namespace focal_test;
 
 namespace {
 
-std::vector<int32_t> all_of(Eigen::Index n) {
+std::vector<int32_t> all_vertices(Eigen::Index n) {
   std::vector<int32_t> all(n);
   std::iota(all.begin(), all.end(), 0);
   return all;
@@ -26,7 +26,7 @@ std::vector<int32_t> all_of(Eigen::Index n) {
 RowMatrix describe(const TriangleMesh& mesh) {
   const Operators operators = make_operators(mesh);
   const Eigenbasis basis = eigenbasis(operators.L, operators.mass, {.count = 60}, {});
-  return si_hks(basis, operators.area, all_of(mesh.vertex_count()));
+  return si_hks(basis, operators.area, all_vertices(mesh.vertex_count()));
 }
 
 // Largest difference, relative to the largest entry.

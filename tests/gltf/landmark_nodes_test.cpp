@@ -18,7 +18,7 @@ namespace {
 
 using Ordered = nlohmann::ordered_json;
 
-Ordered parsed(std::span<const std::byte> bytes) {
+Ordered in_order(std::span<const std::byte> bytes) {
   const auto text = open_container(bytes, {}).json;
   return Ordered::parse(reinterpret_cast<const char*>(text.data()),
                         reinterpret_cast<const char*>(text.data()) + text.size());
@@ -59,7 +59,7 @@ TEST_CASE("landmarks become named nodes in the scene and extras of their mesh") 
   const auto source = tetrahedron().glb();
   const auto mesh = read_gltf_memory(source);
   const auto result = add_landmarks(source, mesh.primitives, three_landmarks());
-  const Ordered root = parsed(result);
+  const Ordered root = in_order(result);
   const auto group = root["scenes"][0]["nodes"].back().get<size_t>();
   CHECK(root["nodes"][group]["name"] == "focal_landmarks");
   const auto& children = root["nodes"][group]["children"];
@@ -87,13 +87,13 @@ TEST_CASE("everything else in the file stays as it was") {
   file.root["unknown"] = {{"z", 1}, {"a", 2}};
   const auto glb = file.glb();
   const auto with = add_landmarks(glb, read_gltf_memory(glb).primitives, three_landmarks());
-  CHECK(without_landmarks(parsed(with)).dump() == parsed(glb).dump());
+  CHECK(without_landmarks(in_order(with)).dump() == in_order(glb).dump());
   CHECK(same_bytes(open_container(with, {}).rest, open_container(glb, {}).rest));
 
   const auto gltf = file.gltf("data:application/octet-stream;base64,AAAA");
   const auto text = add_landmarks(gltf, {}, {});
   CHECK(text.front() == std::byte('{'));
-  CHECK(without_landmarks(parsed(text)).dump() == parsed(gltf).dump());
+  CHECK(without_landmarks(in_order(text)).dump() == in_order(gltf).dump());
 }
 
 TEST_CASE("a second call replaces the landmarks of the first") {
@@ -102,17 +102,17 @@ TEST_CASE("a second call replaces the landmarks of the first") {
   const auto once = add_landmarks(source, primitives, three_landmarks());
   CHECK(add_landmarks(once, primitives, three_landmarks()) == once);
   const auto emptied = add_landmarks(once, primitives, {});
-  const Ordered root = parsed(emptied);
+  const Ordered root = in_order(emptied);
   CHECK(root["meshes"][0]["extras"]["focal"]["landmarks"].empty());
   CHECK(root["scenes"][0]["nodes"].size() == 2);
 
   // A node the user hung below the group keeps the whole group.
-  Ordered edited = parsed(once);
+  Ordered edited = in_order(once);
   edited["nodes"].push_back({{"name", "mine"}});
   edited["nodes"][edited["scenes"][0]["nodes"].back().get<size_t>()]["children"].push_back(
       edited["nodes"].size() - 1);
   const auto third = add_landmarks(bytes_of(edited.dump()), primitives, three_landmarks());
-  CHECK(parsed(third)["scenes"][0]["nodes"].size() == 3);
+  CHECK(in_order(third)["scenes"][0]["nodes"].size() == 3);
 }
 
 TEST_CASE("files without scenes, nodes or object extras take landmarks too") {
@@ -125,13 +125,13 @@ TEST_CASE("files without scenes, nodes or object extras take landmarks too") {
     const auto primitives = read_gltf_memory(source).primitives;
     const auto result = add_landmarks(source, primitives, three_landmarks());
     CHECK(read_gltf_memory(result).mesh.vertex_count() == 4);
-    CHECK(parsed(result)["scenes"][0]["nodes"].size() == (std::string(gone) == "nodes" ? 1 : 2));
+    CHECK(in_order(result)["scenes"][0]["nodes"].size() == (std::string(gone) == "nodes" ? 1 : 2));
   }
   GltfBuilder file = tetrahedron();
   file.root["meshes"][0]["extras"] = 7;
   const auto source = file.glb();
   const auto result = add_landmarks(source, read_gltf_memory(source).primitives, three_landmarks());
-  CHECK(parsed(result)["meshes"][0]["extras"] == 7);
+  CHECK(in_order(result)["meshes"][0]["extras"] == 7);
 }
 
 TEST_CASE("a document that has to grow while it is edited") {  // its members move in memory then
@@ -141,8 +141,8 @@ TEST_CASE("a document that has to grow while it is edited") {  // its members mo
     for (int i = 0; i < more; ++i) file.root["extra" + std::to_string(i)] = i;
     const auto source = file.glb();
     const auto result = add_landmarks(source, read_gltf_memory(source).primitives, three_landmarks());
-    CHECK(parsed(result)["scenes"][0]["nodes"].size() == 1);
-    CHECK(parsed(result)["nodes"].size() == 3);
+    CHECK(in_order(result)["scenes"][0]["nodes"].size() == 1);
+    CHECK(in_order(result)["nodes"].size() == 3);
   }
 }
 
@@ -153,7 +153,7 @@ TEST_CASE("the second mesh's triangles are counted from its own, a mirrored one'
   const auto source = file.glb();
   const std::vector<GltfLandmark> landmarks = {
       {"a", {5, {0.5, 0.25, 0.125}}, {0, 0, 0}, 1, LandmarkStatus::found}};
-  const Ordered root = parsed(add_landmarks(source, read_gltf_memory(source).primitives, landmarks));
+  const Ordered root = in_order(add_landmarks(source, read_gltf_memory(source).primitives, landmarks));
   CHECK_FALSE(root["meshes"][0].contains("extras"));
   const auto& landmark = root["meshes"][1]["extras"]["focal"]["landmarks"][0];
   CHECK(landmark["triangle"] == 1);
@@ -176,7 +176,7 @@ TEST_CASE("a file without scenes gets one of its roots") {
   file.root.erase("scenes"), file.root.erase("scene");
   file.root["nodes"] = json::parse(R"([{"mesh": 0}, {"children": [0]}])");
   const auto source = file.glb();
-  const Ordered root = parsed(add_landmarks(source, read_gltf_memory(source).primitives, {}));
+  const Ordered root = in_order(add_landmarks(source, read_gltf_memory(source).primitives, {}));
   CHECK(root["scenes"][0]["nodes"] == Ordered({1, 2}));
 }
 
@@ -184,15 +184,15 @@ TEST_CASE("landmarks to which the user has hung something of his own stay") {
   const auto source = tetrahedron().glb();
   const auto mesh = read_gltf_memory(source);
   const auto once = add_landmarks(source, mesh.primitives, three_landmarks());
-  const auto group = parsed(once)["scenes"][0]["nodes"].back().get<size_t>();
+  const auto group = in_order(once)["scenes"][0]["nodes"].back().get<size_t>();
   const auto nodes_after = [&](size_t node, const json& addition) {
-    json root = json::parse(parsed(once).dump());
+    json root = json::parse(in_order(once).dump());
     root["nodes"][node].merge_patch(addition);
     root["nodes"].push_back({{"name", "mine"}});
     if (addition.contains("camera")) root["cameras"] = {{{"type", "perspective"}}};
     if (addition.contains("skin")) root["skins"] = {{{"joints", {group}}}};
     const auto bytes = glb_bytes(root.dump(), open_container(once, {}).rest);
-    return parsed(add_landmarks(bytes, mesh.primitives, three_landmarks()))["scenes"][0]["nodes"].size();
+    return in_order(add_landmarks(bytes, mesh.primitives, three_landmarks()))["scenes"][0]["nodes"].size();
   };
   CHECK(nodes_after(group, json::object()) == 2);  // the mesh and the new group
   const size_t mine = group + 3;
@@ -233,7 +233,7 @@ TEST_CASE("the rigged characters take landmarks and keep everything else") {
     const auto source = read_file(entry.path());
     const GltfMesh mesh = read_gltf_memory(source);
     const auto with = add_landmarks(source, mesh.primitives, three_landmarks());
-    CHECK(without_landmarks(parsed(with)) == parsed(source));
+    CHECK(without_landmarks(in_order(with)) == in_order(source));
     CHECK(same_bytes(open_container(with, {}).rest, open_container(source, {}).rest));
     CHECK(read_gltf_memory(with).mesh.positions == mesh.mesh.positions);
   }

@@ -13,7 +13,7 @@ using namespace focal;
 
 namespace {
 
-Matrix random_matrix(Eigen::Index rows, Eigen::Index columns, uint64_t seed) {
+Matrix random_dense(Eigen::Index rows, Eigen::Index columns, uint64_t seed) {
   Random random(seed);
   return Matrix::NullaryExpr(rows, columns, [&] { return random.normal(); });
 }
@@ -33,7 +33,7 @@ void check(const Matrix& A) {
 
 TEST_CASE("random symmetric matrices of any size") {
   for (const int n : {1, 2, 3, 31, 32, 65, 192}) {
-    const Matrix X = random_matrix(n, n, n);
+    const Matrix X = random_dense(n, n, n);
     check(X + X.transpose());
   }
 }
@@ -41,19 +41,19 @@ TEST_CASE("random symmetric matrices of any size") {
 TEST_CASE("repeated, zero, graded and nearly diagonal eigenvalues") {
   check(Matrix::Zero(40, 40));
   check(Matrix::Identity(40, 40));
-  const Matrix Q = Eigen::HouseholderQR<Matrix>(random_matrix(60, 60, 5)).householderQ();
+  const Matrix Q = Eigen::HouseholderQR<Matrix>(random_dense(60, 60, 5)).householderQ();
   Vector values(60);
   for (int i = 0; i < 60; ++i) values[i] = i / 20;  // three values, twenty times each
   check(Q * values.asDiagonal() * Q.transpose());
   for (int i = 0; i < 60; ++i) values[i] = std::pow(0.5, i);
   check(Q * values.asDiagonal() * Q.transpose());
-  const Matrix X = random_matrix(60, 60, 6);
+  const Matrix X = random_dense(60, 60, 6);
   check(Matrix(Vector::LinSpaced(60, 1, 1000).asDiagonal()) + 1e-6 * (X + X.transpose()));
   check(1e-200 * (X + X.transpose()));
 }
 
 TEST_CASE("only the upper triangle counts, threads do not change a bit, what is not finite is refused") {
-  Matrix A = random_matrix(70, 70, 7);
+  Matrix A = random_dense(70, 70, 7);
   A = (A + A.transpose()).eval();
   const SymmetricEigen one = symmetric_eigen(A, Execution().inner());
   Execution four;
@@ -68,7 +68,7 @@ TEST_CASE("only the upper triangle counts, threads do not change a bit, what is 
 
 TEST_CASE("products of any size") {
   for (const int n : {1, 5, 33, 64}) {
-    const Matrix A = random_matrix(n, n + 3, 1), B = random_matrix(n + 3, 2 * n, 2);
+    const Matrix A = random_dense(n, n + 3, 1), B = random_dense(n + 3, 2 * n, 2);
     CHECK((dense_product(A, B, {}) - A * B).cwiseAbs().maxCoeff() < 1e-13 * (n + 3));
   }
 }

@@ -28,15 +28,6 @@ const TriangleMesh& large_ellipsoid() {
   return mesh;
 }
 
-bool is_closed(const TriangleMesh& mesh) {
-  std::map<std::pair<int32_t, int32_t>, int> sides;
-  for (int32_t t = 0; t < mesh.triangle_count(); ++t)
-    for (int i = 0; i < 3; ++i) ++sides[{mesh.triangles(t, i), mesh.triangles(t, (i + 1) % 3)}];
-  for (const auto& [side, count] : sides)
-    if (count != 1 || !sides.contains({side.second, side.first})) return false;
-  return true;
-}
-
 }  // namespace
 
 TEST_CASE("a large surface is decimated by slabs to what was asked for, closed and near the original") {

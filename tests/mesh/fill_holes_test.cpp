@@ -27,17 +27,6 @@ double volume(const TriangleMesh& mesh) {
   return six / 6;
 }
 
-// Each directed edge once, and its opposite too: closed, oriented, manifold along edges.
-bool is_closed(const TriangleMesh& mesh) {
-  std::set<std::pair<int32_t, int32_t>> directed;
-  for (int32_t t = 0; t < mesh.triangle_count(); ++t)
-    for (int i = 0; i < 3; ++i)
-      if (!directed.emplace(mesh.triangles(t, i), mesh.triangles(t, (i + 1) % 3)).second) return false;
-  for (const auto& [a, b] : directed)
-    if (!directed.contains({b, a})) return false;
-  return true;
-}
-
 int most_triangles_on_an_edge(const TriangleMesh& mesh) {
   std::map<std::pair<int32_t, int32_t>, int> uses;
   int most = 0;

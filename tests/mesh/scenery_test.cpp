@@ -25,7 +25,7 @@ TriangleMesh placed(TriangleMesh mesh, const Vector3& size, const Vector3& centr
   return mesh;
 }
 
-TriangleMesh ball(double radius, const Vector3& centre, int levels = 2) {
+TriangleMesh coarse_ball(double radius, const Vector3& centre, int levels = 2) {
   return placed(sphere(levels), Vector3::Constant(radius), centre);
 }
 
@@ -174,23 +174,23 @@ TEST_CASE("a backdrop, and a room of several sheets") {
 TEST_CASE("a shape that contains the character is left out") {
   const Extent e;
   const double d = e.diagonal;
-  CHECK(with_body().add("Bounds", ball(0.6 * d, e.centre)).left_out() == "Bounds enclosure");
-  CHECK(with_body().add("Sky", ball(40 * d, e.centre, 5)).left_out() == "Sky enclosure");
+  CHECK(with_body().add("Bounds", coarse_ball(0.6 * d, e.centre)).left_out() == "Bounds enclosure");
+  CHECK(with_body().add("Sky", coarse_ball(40 * d, e.centre, 5)).left_out() == "Sky enclosure");
   CHECK(with_body().add("Box", box(0.51 * (e.high - e.low), e.centre)).left_out() == "Box enclosure");
   const Vector3 torso(0.25 * e.width, 0.4 * e.height, 0.3);  // hands and feet reach out of it
   CHECK(with_body().add("Collider", box(torso, e.centre)).left_out() == "Collider enclosure");
-  CHECK(with_body().add("Sky", ball(9 * d, e.feet)).add("Ground", ground(5 * d, e.feet)).left_out() ==
+  CHECK(with_body().add("Sky", coarse_ball(9 * d, e.feet)).add("Ground", ground(5 * d, e.feet)).left_out() ==
         "Sky enclosure; Ground sheet");
 }
 
 TEST_CASE("what stands apart is left out, on a ground too") {
   const Extent e;
   const Vector3 far = e.centre + Vector3(2.5 * e.diagonal, 0, 0);
-  CHECK(with_body().add("Icosphere", ball(0.2, far)).left_out() == "Icosphere apart");
-  CHECK(with_body().add("Icosphere", ball(0.2, far)).add("Ground", ground(2, e.feet)).left_out() ==
+  CHECK(with_body().add("Icosphere", coarse_ball(0.2, far)).left_out() == "Icosphere apart");
+  CHECK(with_body().add("Icosphere", coarse_ball(0.2, far)).add("Ground", ground(2, e.feet)).left_out() ==
         "Icosphere apart; Ground sheet");
   const Vector3 beside(e.high.x() + 0.6 * e.diagonal, e.centre.y(), e.centre.z());
-  CHECK(with_body().add("Icosphere", ball(0.1, beside)).left_out() == "Icosphere apart");
+  CHECK(with_body().add("Icosphere", coarse_ball(0.1, beside)).left_out() == "Icosphere apart");
 }
 
 TEST_CASE("clothes, weapons and what floats near the character stay") {
@@ -208,9 +208,9 @@ TEST_CASE("clothes, weapons and what floats near the character stay") {
   stays("sword", box({0.02, 0.7, 0.02}, hand));
   stays("sombrero", ground(0.9 * e.width, {e.centre.x(), e.high.y() - 0.1, e.centre.z()}, 8));
   stays("base below the feet", ground(0.25, e.feet));
-  stays("orb", ball(0.1, {e.high.x() + 0.25 * e.height, e.high.y(), e.centre.z()}));
-  stays("eye", ball(0.02, {e.centre.x(), 0.93 * e.high.y(), e.centre.z()}, 4));
-  stays("helmet", ball(0.15, {e.centre.x(), 0.93 * e.high.y(), e.centre.z()}));
+  stays("orb", coarse_ball(0.1, {e.high.x() + 0.25 * e.height, e.high.y(), e.centre.z()}));
+  stays("eye", coarse_ball(0.02, {e.centre.x(), 0.93 * e.high.y(), e.centre.z()}, 4));
+  stays("helmet", coarse_ball(0.15, {e.centre.x(), 0.93 * e.high.y(), e.centre.z()}));
   stays("skirt", placed(sphere(3), {0.3, 0.3, 0.3}, e.centre - Vector3(0, 0.2, 0)));
   stays("robe", placed(body(), {1.05, 1.01, 1.05}, Vector3(0, -0.001, 0)));
   stays("twin of the same size", placed(body(), {1, 1, 1}, {4 * e.diagonal, 0, 0}));
@@ -228,25 +228,25 @@ TEST_CASE("a character in pieces keeps all of them") {
   floating.add("Torso", middle).add("HandR", right).add("HandL", left);
   CHECK(floating.left_out() == "");
   CHECK(Scene()
-            .add("Torso", ball(0.4, {0, 1, 0}, 3))
-            .add("HandR", ball(0.1, {1.2, 1, 0}))
-            .add("HandL", ball(0.1, {-1.2, 1, 0}))
+            .add("Torso", coarse_ball(0.4, {0, 1, 0}, 3))
+            .add("HandR", coarse_ball(0.1, {1.2, 1, 0}))
+            .add("HandL", coarse_ball(0.1, {-1.2, 1, 0}))
             .left_out() == "");
 }
 
 TEST_CASE("round bodies and flat ones are bodies") {
   const Scene round = Scene()
-                          .add("Body", ball(1, {0, 0, 0}, 3))
-                          .add("EyeR", ball(0.2, {0.4, 0.3, 0.85}, 4))
-                          .add("EyeL", ball(0.2, {-0.4, 0.3, 0.85}, 4))
-                          .add("FootR", ball(0.3, {0.5, -0.85, 0.1}, 3))
-                          .add("FootL", ball(0.3, {-0.5, -0.85, 0.1}, 3));
+                          .add("Body", coarse_ball(1, {0, 0, 0}, 3))
+                          .add("EyeR", coarse_ball(0.2, {0.4, 0.3, 0.85}, 4))
+                          .add("EyeL", coarse_ball(0.2, {-0.4, 0.3, 0.85}, 4))
+                          .add("FootR", coarse_ball(0.3, {0.5, -0.85, 0.1}, 3))
+                          .add("FootL", coarse_ball(0.3, {-0.5, -0.85, 0.1}, 3));
   CHECK(round.left_out() == "");
   const Scene slime = Scene()
-                          .add("Slime", ball(1, {0, 0, 0}, 3))
-                          .add("Core", ball(0.4, {0, 0, 0}, 4))
-                          .add("EyeR", ball(0.1, {0.3, 0.3, 0.7}, 3))
-                          .add("EyeL", ball(0.1, {-0.3, 0.3, 0.7}, 3));
+                          .add("Slime", coarse_ball(1, {0, 0, 0}, 3))
+                          .add("Core", coarse_ball(0.4, {0, 0, 0}, 4))
+                          .add("EyeR", coarse_ball(0.1, {0.3, 0.3, 0.7}, 3))
+                          .add("EyeL", coarse_ball(0.1, {-0.3, 0.3, 0.7}, 3));
   CHECK(slime.left_out() == "");
   const Scene paper = Scene()
                           .add("Card", square(5))
@@ -260,9 +260,9 @@ TEST_CASE("what is stuck into a round body does not make a dome of it") {
     const Extent e;
     return placed(placed(body(), Vector3::Ones(), -e.centre), Vector3::Constant(0.25), at);
   };
-  CHECK(Scene().add("Ball", ball(1, {0, 0, 0})).add("Badge", figure({0, 0, 0.97})).left_out() == "");
+  CHECK(Scene().add("Ball", coarse_ball(1, {0, 0, 0})).add("Badge", figure({0, 0, 0.97})).left_out() == "");
   Scene studs;
-  studs.add("Ball", ball(1, {0, 0, 0}));
+  studs.add("Ball", coarse_ball(1, {0, 0, 0}));
   for (const double side : {-0.8, 0.8})
     studs.add("Stud", figure({side, 0, 0}))
         .add("Stud", figure({0, side, 0}))
@@ -274,7 +274,7 @@ TEST_CASE("what has a skin stays, and shows what the character is") {
   const Extent e;
   CHECK(Scene().add("Body", body(), true).add("Ground", ground(2, e.feet), true).left_out() == "");
   const Vector3 far = e.centre + Vector3(4 * e.diagonal, 0, 0);
-  const TriangleMesh large = ball(0.5, far, 6);  // with more vertices than the body, but convex
+  const TriangleMesh large = coarse_ball(0.5, far, 6);  // with more vertices than the body, but convex
   CHECK(with_body().add("Prop", large).left_out() == "Prop apart");
   CHECK(Scene().add("Body", body(), true).add("Prop", large).left_out() == "Prop apart");
   CHECK(Scene().add("Body", body(), true).add("Prop", large, true).left_out() == "");

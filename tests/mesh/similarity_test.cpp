@@ -3,11 +3,11 @@
 
 #include <doctest/doctest.h>
 
-#include <Eigen/Geometry>
-
 #include "base/random.h"
+#include "surfaces.h"
 
 using namespace focal;
+using focal_test::random_rotation;
 
 namespace {
 
@@ -15,12 +15,6 @@ MatrixX3 random_points(int count, Random& random) {
   MatrixX3 points(count, 3);
   for (double& x : points.reshaped()) x = random.normal();
   return points;
-}
-
-Matrix3 random_rotation(Random& random) {
-  return Eigen::Quaterniond(random.normal(), random.normal(), random.normal(), random.normal())
-      .normalized()
-      .toRotationMatrix();
 }
 
 }  // namespace

@@ -23,8 +23,6 @@ Orientation orientation_of(const TriangleMesh& mesh) {
   return consistent_orientation(mesh, edge_sides(mesh));
 }
 
-void turn_over(TriangleMesh& mesh, int32_t t) { std::swap(mesh.triangles(t, 1), mesh.triangles(t, 2)); }
-
 TriangleMesh without(const TriangleMesh& mesh, const std::set<int32_t>& triangles) {
   TriangleMesh result = mesh;
   int32_t kept = 0;

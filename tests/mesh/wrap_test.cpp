@@ -38,8 +38,6 @@ TriangleMesh ball(double radius, const Vector3& centre, int levels = 4) {
   return mesh;
 }
 
-void turn_over(TriangleMesh& mesh, int32_t t) { std::swap(mesh.triangles(t, 1), mesh.triangles(t, 2)); }
-
 TriangleMesh turned_over(TriangleMesh mesh) {
   for (int32_t t = 0; t < mesh.triangle_count(); ++t) turn_over(mesh, t);
   return mesh;

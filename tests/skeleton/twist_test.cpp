@@ -17,7 +17,8 @@ Matrix3 about(const Vector3& axis, double angle) {
 }
 
 // A straight chain along z; each joint is turned about it by an angle, at rest by none.
-std::vector<TurnedJoint> chain(const std::vector<double>& angles, const std::vector<double>& variances) {
+std::vector<TurnedJoint> turned_chain(const std::vector<double>& angles,
+                                      const std::vector<double>& variances) {
   std::vector<TurnedJoint> joints;
   for (size_t j = 0; j < angles.size(); ++j)
     joints.push_back({static_cast<int32_t>(j) - 1, about(Vector3::UnitZ(), angles[j]), Matrix3::Identity(),
@@ -41,14 +42,14 @@ TEST_CASE("the twist of a rotation is what turns about the axis, whatever swings
 
 TEST_CASE(
     "a joint that nothing tells how it is turned lies between its neighbours; those that are known stay") {
-  const auto by = twist_corrections(chain({0.2, 2, 0.4}, {0, 100, 0}));
+  const auto by = twist_corrections(turned_chain({0.2, 2, 0.4}, {0, 100, 0}));
   CHECK(std::abs(by[0]) < 0.1);
   CHECK(std::abs(by[2]) < 0.1);
   CHECK(2 + by[1] == doctest::Approx((0.2 + by[0] + 0.4 + by[2]) / 2).epsilon(1e-3));
 }
 
 TEST_CASE("what agrees with the rest pose is left alone, however it is bent") {
-  auto joints = chain({0, 0, 0}, {1, 1, 1});
+  auto joints = turned_chain({0, 0, 0}, {1, 1, 1});
   const Matrix3 bend = about(Vector3::UnitX(), 1.2);
   joints[1].turn = bend, joints[1].bone = bend.col(2);
   joints[2].turn = bend, joints[2].bone = bend.col(2);
@@ -56,7 +57,7 @@ TEST_CASE("what agrees with the rest pose is left alone, however it is bent") {
 }
 
 TEST_CASE("a joint without a bone is left alone") {
-  auto joints = chain({0, 1}, {0, 1});
+  auto joints = turned_chain({0, 1}, {0, 1});
   joints[1].bone.setZero();
   CHECK(twist_corrections(joints)[1] == 0);
   CHECK(twist_corrections({}).empty());

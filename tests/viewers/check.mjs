@@ -5,7 +5,7 @@
 import fs from 'node:fs';
 import {readGlb, writeGlb} from './glb.mjs';
 import {spoilers} from './spoilers.mjs';
-import {look, viewerName} from './viewers.mjs';
+import {avatarFaults, look, viewerName} from './viewers.mjs';
 
 const looks = new Map();
 async function lookOnce(file) {
@@ -81,10 +81,15 @@ async function judge({written, input, how}) {
   }
   for (const clip of lostClips(clips, after)) faults.push(`error: animation ${clip} is lost`);
 
+  if (words.includes('--vrm')) {
+    const meta = JSON.parse(fs.readFileSync(words[words.indexOf('--vrm') + 1]));
+    faults.push(...await avatarFaults(written, meta));
+  }
+
   // focal reads what has a skin in the pose in which it was bound; the pose shown may differ a little.
   const tolerance = before.bones.length > 0 && verb !== 'detect' ? 0.1 : 1e-4;
   const distance = moved(before.box, after.box);
-  if (!words.includes('--rest-pose') && isShown(before) && !(distance < tolerance))
+  if (!words.includes('--rest-pose') && !words.includes('--pose') && isShown(before) && !(distance < tolerance))
     faults.push(`error: it stands elsewhere, by ${distance.toPrecision(2)} of its size`);
   return {faults, after};
 }

@@ -5,7 +5,7 @@
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 focal=$1 creatures=$2 quick_model=$3 folder=$4 tools=$5
-for package in gltf-validator three; do
+for package in gltf-validator three @pixiv/three-vrm; do
   if ! command -v node > /dev/null || ! [ -f "$tools/node_modules/$package/package.json" ]; then
     echo "viewers: skipped: node or its package $package is missing; .ci/bootstrap.sh ci fetches them"
     exit 77
@@ -60,6 +60,8 @@ done
 mesh=$folder/set/humanoid/humanoid_01.glb character=$folder/set/humanoid/humanoid_00.rig.glb
 rig "$mesh" "$folder/animated.glb" --names mixamo --animations "$character"
 rig "$mesh" "$folder/at_rest.glb" --rest-pose --symmetric --names rigify
+echo '{"name": "Sample", "authors": ["somebody"]}' > "$folder/meta.json"
+rig "$mesh" "$folder/avatar.glb" --pose t --vrm "$folder/meta.json"
 rig "$folder/humanoid.rigged.glb" "$folder/again.glb" --names unreal
 rig "$character" "$folder/second_skeleton.glb"  # beside the character's own, whose bones have the same names
 mark "$character" "$folder/character_marked.glb"

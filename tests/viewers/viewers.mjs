@@ -9,8 +9,9 @@ const validator = createRequire(path.join(modules, 'here.js'))('gltf-validator')
 const three = (file) => import(pathToFileURL(path.join(modules, 'three', file)).href);
 globalThis.self = globalThis;  // two names of browsers that the loader uses and Node lacks
 globalThis.ProgressEvent ??= class extends Event {};
-const {AnimationMixer, Box3, LoadingManager, LoopOnce, PropertyBinding, SkinnedMesh, Texture} = await three('build/three.module.js');
+const {AnimationMixer, Box3, Vector3, LoadingManager, LoopOnce, PropertyBinding, SkinnedMesh, Texture} = await three('build/three.module.js');
 const {GLTFLoader} = await three('examples/jsm/loaders/GLTFLoader.js');
+const {VRMLoaderPlugin} = await import(pathToFileURL(path.join(modules, '@pixiv/three-vrm/lib/three-vrm.module.js')).href);
 
 export const viewerName = (name) => PropertyBinding.sanitizeNodeName(name ?? '');
 
@@ -40,6 +41,7 @@ function load(file) {
       uri :
       'data:application/octet-stream;base64,' + Buffer.from(besides(file, uri)).toString('base64');
   const loader = new GLTFLoader(new LoadingManager().setURLModifier(inline));
+  loader.register((parser) => new VRMLoaderPlugin(parser));
   loader.register(() => ({name: 'no pictures', loadTexture: async () => new Texture()}));  // Node decodes none
   return loader.parseAsync(new Uint8Array(fs.readFileSync(file)).buffer, '');
 }
@@ -110,4 +112,27 @@ export async function influences(file, clip, seconds) {
   const found = [];
   gltf.scene.traverse((mesh) => found.push(...(mesh.morphTargetInfluences ?? []).slice(0, 1)));
   return found;
+}
+
+// What an engine of avatars would miss in a VRM file in a T-pose: names of bones, meta data, and arms that come down when it lowers them.
+export async function avatarFaults(file, meta) {
+  const {vrm} = (await load(file)).userData;
+  if (!vrm) return ['error: three-vrm finds no avatar'];
+  const faults = [];
+  if (vrm.meta.metaVersion !== '1' || vrm.meta.name !== meta.name || String(vrm.meta.authors) !== String(meta.authors))
+    faults.push('error: the meta data of the avatar is lost');
+  const place = (bone) => vrm.humanoid.getRawBoneNode(bone).getWorldPosition(new Vector3());
+  const width = () => new Box3().setFromObject(vrm.scene, true).getSize(new Vector3()).x;
+  vrm.scene.updateMatrixWorld(true);
+  const before = ['left', 'right'].map((side) => ({side, arm: place(`${side}UpperArm`), hand: place(`${side}Hand`)})), spread = width();
+  for (const {side} of before) vrm.humanoid.getNormalizedBoneNode(`${side}UpperArm`).rotation.z = side === 'left' ? -Math.PI / 2 : Math.PI / 2;
+  vrm.update(0);
+  vrm.scene.updateMatrixWorld(true);
+  for (const {side, arm, hand} of before) {
+    const length = hand.distanceTo(arm), lowered = arm.clone().add(new Vector3(0, -length, 0));
+    if (!(Math.abs(hand.y - arm.y) < 0.1 * length)) faults.push(`error: the ${side} arm of the avatar is not level`);
+    if (!(place(`${side}Hand`).distanceTo(lowered) < 0.1 * length)) faults.push(`error: the ${side} arm of the avatar does not come down`);
+  }
+  if (!(width() < 0.7 * spread)) faults.push('error: the mesh of the avatar does not follow its arms');
+  return faults;
 }
