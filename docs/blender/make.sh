@@ -3,13 +3,16 @@
 # Needs blender, Xvfb, xdotool and ImageMagick, and a release build.      usage: docs/blender/make.sh
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
-build=$(cd "$here/../.." && pwd)/build/release
+build=${FOCAL_BUILD:-$(cd "$here/../.." && pwd)/build/release}
 zip=${FOCAL_ADDON_ZIP:-$(ls "$build"/bindings/blender/focal_addon-*.zip)}
 creatures=${FOCAL_CREATURES:-$build/samples/creatures/focal_creatures}
 work=$(mktemp -d)
 trap 'kill $server 2> /dev/null; rm -rf "$work"' EXIT
 
 "$creatures" "$work/samples" --family humanoid --train 6 --test 1
+"$creatures" "$work/samples" --family game_humanoid --train 0 --test 12
+"$(dirname "$0")/../../samples/stock/make.sh" --build "$build" --only humanoid --characters 12 --out "$work/models"
+export FOCAL_GAME_CHARACTER="$work/samples/game_humanoid/game_humanoid_10.glb" FOCAL_STOCK="$work/models/humanoid.focal"
 mkdir -p "$work/scripts" "$work/config" "$work/out"
 export BLENDER_USER_SCRIPTS="$work/scripts" BLENDER_USER_CONFIG="$work/config" LIBGL_ALWAYS_SOFTWARE=1
 exec 3> "$work/display"
@@ -22,7 +25,7 @@ blender --factory-startup --window-geometry 0 0 1280 1000 --python-exit-code 3 -
   -- "$zip" "$work/samples/humanoid" "$work/out" > "$work/log" 2>&1 || { cat "$work/log"; exit 1; }
 
 small() { convert "$@" -dither None -colors 160 -define png:compression-level=9 -strip "png8:$out"; }
-for name in landmarks train detect rig; do
+for name in landmarks train detect skeleton rig; do
   out=$here/$name.png
   small "$work/out/$name.png" -crop 800x879+257+0 +repage -resize 85%
 done

@@ -16,6 +16,7 @@ from common import MODULE, OUT, SAMPLES, activate, install, load_character  # no
 TRAINING = [f"humanoid_{i:02}" for i in range(6)]
 OTHER = "humanoid_06"
 TEMPLATE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../samples/templates/humanoid.json")
+GAME_CHARACTER, STOCK = (os.environ[name] for name in ("FOCAL_GAME_CHARACTER", "FOCAL_STOCK"))
 TABS_X, FOCAL_TAB_Y = 13, 190  # from the right and the top of the area: below Item, Tool, View
 
 
@@ -60,9 +61,9 @@ shown = set()
 
 def panels_by_label():
     """Makes the tab's panels show by their label, open: what a user does by clicking their headers."""
-    panels = sys.modules[MODULE + ".panels"]
-    for cls in panels.CLASSES:
-        if not issubclass(cls, bpy.types.Panel) or cls is panels.FOCAL_PT_main:
+    main, skeleton = (sys.modules[f"{MODULE}.{name}"] for name in ("panels", "panel_skeleton"))
+    for cls in main.CLASSES + skeleton.CLASSES:
+        if not issubclass(cls, bpy.types.Panel) or cls is main.FOCAL_PT_main:
             continue
         bpy.utils.unregister_class(cls)
         cls.bl_options = set()
@@ -169,11 +170,42 @@ def detection_shots(other):
     call(bpy.ops.focal.show_votes)
     yield 1
     shoot("votes")
-    open_panels("Rig", "Segment", "Collection")
+    open_panels("Segment")
     call(bpy.ops.focal.segment)
     yield 1
     shoot("parts")
     area().spaces.active.shading.color_type = "MATERIAL"
+    yield from skeleton_shot(other)
+    yield from rig_shot()
+
+
+def skeleton_shot(other):
+    """The template over this mesh's landmarks, as bones."""
+    settings = bpy.context.scene.focal
+    settings.template_path = ""
+    open_panels("Skeleton")
+    call(bpy.ops.focal.joint_template, kind="humanoid")
+    settings.joint_active = settings.joints.find("leftUpperArm")
+    call(bpy.ops.focal.joint_show)
+    activate(other)
+    yield 1
+    shoot("skeleton")
+    call(bpy.ops.focal.joint_remove, all=True)
+
+
+def rig_shot():
+    """A game character of several objects, by a model of others."""
+    settings = bpy.context.scene.focal
+    for obj in list(bpy.data.objects):
+        obj.hide_set(True)
+    before = set(bpy.data.objects)
+    call(bpy.ops.import_scene.gltf, filepath=GAME_CHARACTER)
+    parts = [obj for obj in bpy.data.objects if obj not in before and obj.type == "MESH"]
+    settings.model_path = STOCK
+    open_panels("Detect", "Rig")
+    show(*parts)
+    for obj in parts:
+        obj.select_set(True)
     call(bpy.ops.focal.rig)
     yield 1
     shoot("rig")

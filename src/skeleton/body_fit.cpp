@@ -14,7 +14,8 @@ namespace {
 
 // Chosen on left-out characters of packs and of the generator.
 constexpr size_t most_from_maps = 6, most_reversed = 4, most_laid_over = 8, most_kept_over = 4;  // fits
-constexpr double sure_bulge = 0.25;         // maps whose surfaces bulge that much alike face the right way
+constexpr double sure_bulge = 0.25;         // maps whose surfaces bulge that much alike face the right way,
+constexpr double sure_residual = 0.07;      // where a fit from them ends that near to the body
 constexpr double reversing_margin = 0.035;  // fits that face the other way must be so much better
 constexpr double residual_falloff = 30;     // a fit counts exp(-falloff (residual / least residual - 1))
 constexpr double agreement = 0.05;          // of sqrt(area): fits whose joints lie farther off hardly count
@@ -92,6 +93,27 @@ class Fitting {
     return starts;
   }
 
+  // Its limbs that hang down side by side, legs above all, each pair exchanged: maps of a stride can take one for the other.
+  std::vector<Start> with_exchanged_limbs(const FittedShape& one) const {
+    const ArticulatedFit& fit = *fits_[one.shape];
+    std::vector<Start> starts;
+    for (size_t j = 0; j < counterpart_.size(); ++j) {
+      const int32_t other = counterpart_[j];
+      if (other <= static_cast<int32_t>(j) || !fit.has(j) || !fit.has(other)) continue;
+      const int32_t parent = start_.joints[j].parent;
+      if (parent >= 0 && counterpart_[parent] >= 0) continue;  // within a limb
+      const std::vector<size_t> limb = limb_from(j);
+      if (limb.size() < 3 || fit.bone(j).dot(fit.bone(other)) < 0.5) continue;
+      Start& start = starts.emplace_back(Start{one.shape, one.posture});
+      for (const size_t from : limb) {
+        const auto to = static_cast<size_t>(counterpart_[from]);
+        take_place(fit, one.posture, from, to, start.posture);
+        take_place(fit, one.posture, to, from, start.posture);
+      }
+    }
+    return starts;
+  }
+
   // Training shapes as they stand, with the extents of the body, facing as it does or either way.
   std::vector<Start> laid_over(bool either_way) {
     const SurfaceAnalysis& analysis = *detection_.analysis;
@@ -142,6 +164,29 @@ class Fitting {
   }
 
  private:
+  // A joint and those below it that have another side.
+  std::vector<size_t> limb_from(size_t root) const {
+    std::vector<char> is_in(start_.joints.size(), 0);
+    std::vector<size_t> limb;
+    for (size_t j = root; j < start_.joints.size(); ++j) {
+      const int32_t parent = start_.joints[j].parent;
+      if (counterpart_[j] < 0 || (j != root && (parent < 0 || !is_in[parent]))) continue;
+      is_in[j] = 1;
+      limb.push_back(j);
+    }
+    return limb;
+  }
+
+  // Joint `to` comes where `from` was, with its bone along the other's.
+  static void take_place(const ArticulatedFit& fit, const Posture& before, size_t from, size_t to,
+                         Posture& posture) {
+    if (!fit.has(from) || !fit.has(to)) return;
+    posture.place[to] = before.place[from];
+    posture.turn[to] = before.turn[from] *
+                       Eigen::Quaterniond::FromTwoVectors(fit.bone(to), fit.bone(from)).toRotationMatrix();
+    posture.length[to] = before.length[from], posture.girth[to] = before.girth[from];
+  }
+
   // Those of the shapes that are not there yet.
   void make_fits(std::vector<int32_t> shapes) {
     std::sort(shapes.begin(), shapes.end());
@@ -256,12 +301,18 @@ BodyFit fit_to_body(const Detection& detection, const std::vector<ShapeMap>& map
   BodyFit result;
   fitting.add(fitting.from_maps(maps), from_maps, result.shapes);
   const bool is_known = away_from(fixed, fitting, result.shapes[0]).has_value();
-  if (detection.model->params.oriented && (is_known || detection.bulge_agreement < sure_bulge)) {
+  const double nearest = std::ranges::min(result.shapes, {}, &FittedShape::residual).residual;
+  const bool is_sure = detection.bulge_agreement >= sure_bulge && nearest < sure_residual;
+  if (detection.model->params.oriented && (is_known || !is_sure)) {
     may_reverse = may_reverse && fitting.has_sides();
     if (may_reverse) fitting.add(fitting.reversed(result.shapes), from_posture, result.shapes);
     fitting.add(fitting.laid_over(may_reverse), from_posture, result.shapes);
   }
   choose_heading(fitting, may_reverse, fixed, result);
+  if (may_reverse && fitting.has_sides()) {
+    fitting.add(fitting.with_exchanged_limbs(result.shapes[0]), from_posture, result.shapes);
+    Fitting::keep_best(result.shapes, result.shapes.size());
+  }
   double sum = 0;
   const FittedShape& best = result.shapes[0];
   for (FittedShape& one : result.shapes) {

@@ -268,7 +268,7 @@ static void check_carried_template(void) {
   focal_skeleton_params params;
   focal_blob* blob = NULL;
   CHECK(focal_model_skeleton_template(bare) == NULL && focal_model_joint_count(bare) == 0);
-  CHECK_REFUSED(focal_training_set_set_skeleton(set, ONE("\"centre\":[\"nothing\"]")),
+  CHECK_REFUSED(focal_training_set_set_skeleton(set, JOINTS("{\"name\":\"a\",\"centre\":[\"nothing\"]}")),
                 FOCAL_ERROR_INVALID_ARGUMENT, "nothing");
   CHECK_REFUSED(focal_training_set_set_skeleton(set, "{"), FOCAL_ERROR_INVALID_FILE, "JSON");
   CHECK_OK(focal_training_set_create(context, NULL, 0, &rigs));

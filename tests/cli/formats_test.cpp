@@ -67,6 +67,7 @@ TEST_CASE("options that do nothing are not accepted") {
   CHECK(focal("info a.glb --seed 1").status == 2);
   CHECK(focal("batch M F -o R --keep-failed").status == 2);
   CHECK(focal("train --rigs a.glb -o m --limit 3").status == 2);
+  CHECK(focal("train --rigs a.glb -o m --template t.json").status == 2);
   const ScratchFolder scratch;
   focal_cli::write_file_atomically(scratch / "a.csv", "name,x,y,z\na,0,0,0\n");
   check_fails("convert " + (scratch / "a.csv") + " " + (scratch / "b.csv") + " --lenient", "are for meshes");

@@ -77,6 +77,27 @@ TEST_CASE("a start whose sides are exchanged is corrected, unless the heading is
   CHECK_FALSE(body.fit(false).is_reversed);
 }
 
+TEST_CASE("a start whose legs alone are exchanged is corrected, where all else is sure") {
+  Body body(11);
+  body.detection.bulge_agreement = 1;
+  const PlacedSkeleton right = body.start;
+  size_t exchanged = 0;
+  for (size_t j = 0; j < right.place.size(); ++j) {
+    const std::string& name = right.joints[j].name;
+    if (name.find("Leg") == std::string::npos && name.find("Foot") == std::string::npos &&
+        name.find("Toes") == std::string::npos)
+      continue;
+    body.start.place[j] = right.place[body.counterpart[j]],
+    body.start.turn[j] = right.turn[body.counterpart[j]];
+    ++exchanged;
+  }
+  REQUIRE(exchanged == 8);
+  for (ShapeMap& map : body.detection.maps) map.map.image.clear();  // they know better
+  const BodyFit fit = body.fit(true);
+  CHECK_FALSE(fit.is_reversed);
+  CHECK(body.error(fit) < 0.04);
+}
+
 TEST_CASE("a fixed joint that has another side says how the body faces, one in the middle does not") {
   const Body body(11);
   const auto at = [&](const char* name) {

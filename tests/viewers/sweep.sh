@@ -1,8 +1,9 @@
 #!/bin/sh
 # Has focal write over every .glb of some folders - landmarks, a skeleton, other weights - and has check.mjs judge all of it by the
 # Khronos validator and three.js. Run by hand: some 300 files take ten minutes. Prints what focal refused.
+# Blender loads all of it, where it is installed.
 # usage: FOCAL_EVALUATION_DATA=DATA sweep.sh [EVERY [BUILD [OUT]]]
-#   DATA/rigs, DATA/wild/dev (the rigged ones), DATA/makehuman (two), DATA/../cases, and sample characters of every family
+#   DATA/rigs, DATA/wild/dev (the rigged ones), DATA/makehuman, DATA/../cases, and sample characters of every family
 #   EVERY: 4 takes every fourth of wild/dev; 1: all. BUILD: build/release. OUT: where files go, build/sweep
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
@@ -42,8 +43,15 @@ all() {  # INPUT
 bare=$out/set/humanoid/humanoid_00.glb
 write "$bare" "rig --animations $hero" rig "$model" "$bare" --animations "$hero" --keep-failed --json
 wild=$(ls "$data"/wild/dev/*.rig.glb | awk "NR % $every == 0")
-for input in "$out"/set/*/*.glb "$data"/rigs/*.glb $wild "$data"/makehuman/mh00a*.glb "$data"/../cases/*/*.glb; do
+for input in "$out"/set/*/*.glb "$data"/rigs/*.glb $wild "$data"/makehuman/*.rig.glb "$data"/../cases/*/*.glb; do
   if [ -f "$input" ]; then all "$input"; fi
 done
 echo "sweep: $number runs, $refused refused"
-FOCAL_VIEWERS=$project/build/tools node "$here/check.mjs" "$out/list"
+status=0
+FOCAL_VIEWERS=$project/build/tools node "$here/check.mjs" "$out/list" || status=1
+if command -v blender > /dev/null; then
+  blender --background --factory-startup --python-exit-code 3 --python "$here/in_blender.py" -- "$out/list" > "$out/blender.log" 2>&1 ||
+    status=1
+  grep '^blender' "$out/blender.log" || status=1
+fi
+exit $status

@@ -13,6 +13,7 @@ const {AnimationMixer, Box3, Vector3, LoadingManager, LoopOnce, PropertyBinding,
 const {GLTFLoader} = await three('examples/jsm/loaders/GLTFLoader.js');
 const {VRMLoaderPlugin} = await import(pathToFileURL(path.join(modules, '@pixiv/three-vrm/lib/three-vrm.module.js')).href);
 
+export const sidesOf = (box) => box.getSize(new Vector3()).toArray().sort((a, b) => a - b);
 export const viewerName = (name) => PropertyBinding.sanitizeNodeName(name ?? '');
 
 // The loader would scale weights to sum 1, and so hide those that do not: they are counted instead.
@@ -84,7 +85,7 @@ function play(gltf, nodeOf, json, add) {
   });
 }
 
-// -> {json, faults: Map from a fault to how often it is there, bones, clips: names, box: of the mesh as it stands}
+// -> {json, faults: Map from a fault to how often it is there, bones, clips: names, box: of the mesh as it stands, bindBox: as it was bound}
 export async function look(file) {
   const faults = new Map();
   const add = (fault, count = 1) => faults.set(fault, (faults.get(fault) ?? 0) + count);
@@ -97,7 +98,10 @@ export async function look(file) {
   const box = new Box3().setFromObject(gltf.scene, true);
   const bones = bonesOf(gltf.scene, nodeOf, json, add);
   play(gltf, nodeOf, json, add);
-  return {json, faults, bones, clips: gltf.animations.map((clip) => clip.name), box};
+  gltf.scene.traverse((mesh) => mesh.skeleton?.pose());
+  gltf.scene.updateMatrixWorld(true);
+  const bindBox = new Box3().setFromObject(gltf.scene, true);
+  return {json, faults, bones, clips: gltf.animations.map((clip) => clip.name), box, bindBox};
 }
 
 // Of the first morph target of every mesh that has some, at a time of a clip.

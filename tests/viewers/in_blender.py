@@ -1,0 +1,58 @@
+"""Blender loads every glTF file that focal wrote: as many bones as the joints of the rig, meshes that an armature moves, clips.
+
+    blender --background --factory-startup --python-exit-code 3 --python in_blender.py -- LIST
+
+LIST: as check.mjs has it. A file that Blender refuses is a fault where Blender takes its input.
+"""
+import json
+import sys
+
+import bpy
+
+
+def loaded(path):
+    """What Blender makes of a file, or the error that it ends with."""
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    try:
+        bpy.ops.import_scene.gltf(filepath=path)
+    except RuntimeError as error:
+        return str(error).strip().splitlines()[-1]
+    except AttributeError as error:  # of the importer itself
+        return str(error)
+    bones = [bone.name for armature in bpy.data.armatures for bone in armature.bones]
+    meshes = [obj for obj in bpy.data.objects if obj.type == "MESH"]
+    moved = sum(any(modifier.type == "ARMATURE" for modifier in obj.modifiers) for obj in meshes)
+    return {"bones": bones, "vertices": sum(len(obj.data.vertices) for obj in meshes), "moved": moved, "actions": len(bpy.data.actions)}
+
+
+def faults_of(written, source, how):
+    after = loaded(written)
+    if isinstance(after, str):
+        return [] if isinstance(loaded(source), str) else [f"is not loaded: {after}"]
+    faults = []
+    if after["vertices"] == 0:
+        faults.append("has no vertices")
+    if how.startswith("rig"):
+        with open(written + ".json", encoding="utf-8") as file:
+            joints = len(json.load(file)["joints"])
+        if len(after["bones"]) < joints:
+            faults.append(f"has {len(after['bones'])} bones, the rig has {joints} joints")
+        if after["moved"] == 0:
+            faults.append("no armature moves a mesh")
+    return faults
+
+
+def main(listed):
+    with open(listed, encoding="utf-8") as file:
+        rows = [line.rstrip("\n").split("\t") for line in file]
+    faulty = 0
+    for written, source, how in rows:
+        for fault in faults_of(written, source, how):
+            faulty += 1
+            print(f"blender: {written} ({how}): {fault}", flush=True)
+    print(f"blender {bpy.app.version_string}: {len(rows)} files, {faulty} faults", flush=True)
+    return faulty
+
+
+if main(sys.argv[sys.argv.index("--") + 1]):
+    sys.exit(1)
