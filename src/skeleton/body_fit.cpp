@@ -22,6 +22,7 @@ constexpr double agreement = 0.05;          // of sqrt(area): fits whose joints 
 constexpr double start_weight = 0.7;        // of the maps' joints beside all fits
 constexpr FitRounds from_maps{.coarse = 10, .fine = 5, .map_weight = 0.3};
 constexpr FitRounds from_posture{.coarse = 10, .fine = 5}, glance{.coarse = 8, .fine = 0};
+constexpr FitRounds from_exchanged{.coarse = 25, .fine = 10};  // the trunk has to turn back
 
 struct Start {
   int32_t shape = 0;
@@ -105,6 +106,7 @@ class Fitting {
       const std::vector<size_t> limb = limb_from(j);
       if (limb.size() < 3 || fit.bone(j).dot(fit.bone(other)) < 0.5) continue;
       Start& start = starts.emplace_back(Start{one.shape, one.posture});
+      if (parent >= 0) untwist(fit, static_cast<size_t>(parent), start.posture);
       for (const size_t from : limb) {
         const auto to = static_cast<size_t>(counterpart_[from]);
         take_place(fit, one.posture, from, to, start.posture);
@@ -164,6 +166,13 @@ class Fitting {
   }
 
  private:
+  // A joint of the middle gets the turn of the next one, as the trunk above the hips has it.
+  void untwist(const ArticulatedFit& fit, size_t joint, Posture& posture) const {
+    for (size_t j = 0; j < counterpart_.size(); ++j)
+      if (start_.joints[j].parent == static_cast<int32_t>(joint) && counterpart_[j] < 0 && fit.has(j))
+        posture.turn[joint] = posture.turn[j];
+  }
+
   // A joint and those below it that have another side.
   std::vector<size_t> limb_from(size_t root) const {
     std::vector<char> is_in(start_.joints.size(), 0);
@@ -309,8 +318,8 @@ BodyFit fit_to_body(const Detection& detection, const std::vector<ShapeMap>& map
     fitting.add(fitting.laid_over(may_reverse), from_posture, result.shapes);
   }
   choose_heading(fitting, may_reverse, fixed, result);
-  if (may_reverse && fitting.has_sides()) {
-    fitting.add(fitting.with_exchanged_limbs(result.shapes[0]), from_posture, result.shapes);
+  if (!is_sure && may_reverse && fitting.has_sides()) {
+    fitting.add(fitting.with_exchanged_limbs(result.shapes[0]), from_exchanged, result.shapes);
     Fitting::keep_best(result.shapes, result.shapes.size());
   }
   double sum = 0;

@@ -3,8 +3,9 @@
 
     moved_joints.py --focal FOCAL --out FOLDER FILE.rig.glb ...
 
-Per file and over all: how far vertices lie, in the mean and at the 95th percentile, in per cent of the height, from where the character's own joints and
-weights take them. Pivots that lie 2 % off account for a part of it: that part is what the artist's own weights give with the moved joints.
+Per file and over all: how far vertices lie, in the mean and at the 95th percentile, in per cent of the height, from where the
+character's own joints and weights take them. Pivots that lie 2 % off account for a part of it: that part is what the artist's own
+weights give with the moved joints.
 """
 import argparse
 import json
@@ -24,7 +25,7 @@ BEND = np.radians(20)  # standard deviation of the angle at each joint
 def shifts(file, rng):
     """{joint: how far it moves}"""
     places = file.mesh()[0]
-    height = (places.max(0) - places.min(0)).max()
+    height = (np.nanmax(places, 0) - np.nanmin(places, 0)).max()
     result = {}
     for joint in file.joints():
         way = rng.normal(size=3)
@@ -100,7 +101,8 @@ def distances(file, path, out, focal, rng):
         return wrong[-200:]
     truth = file.mesh(bends(file, rotations))[0]
     by_artist, by_focal = (glb.File(one) for one in (path, out))
-    return [100 * np.linalg.norm(one.mesh(bends(one, rotations))[0] - truth, axis=1) / height for one in (by_focal, by_artist)]
+    found = [100 * np.linalg.norm(one.mesh(bends(one, rotations))[0] - truth, axis=1) / height for one in (by_focal, by_artist)]
+    return [one[np.isfinite(one)] for one in found]
 
 
 def main():
