@@ -447,7 +447,7 @@ FOCAL_API focal_status focal_training_set_add_rig(focal_training_set* set, const
 /* A skeleton over the marked landmarks, as JSON text (docs/rigs.md describes it), for a set with landmark names. A model trained from
  * the set carries it, and focal_skeleton_create uses it where no other template is given. NULL: none, as at first. The set stays as it was
  * on error: INVALID_ARGUMENT (a template that names what the set has not; a set of rigged characters), INVALID_FILE (no JSON),
- * UNSUPPORTED (another version of the format). */
+ * UNSUPPORTED (another version of the format, more than 1 MiB). */
 FOCAL_API focal_status focal_training_set_set_skeleton(focal_training_set* set,
                                                        const char* skeleton_template);
 

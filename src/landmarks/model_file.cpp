@@ -323,13 +323,11 @@ void read_skeleton(ByteReader in, LandmarkModel& model) {
 
 // --- TMPL: the skeleton over the landmarks of marked shapes, as JSON; who rigs parses it
 
-constexpr size_t template_limit = 1 << 20;
-
 void write_template(const LandmarkModel& model, ByteWriter& out) { out.text(model.skeleton_template); }
 
 void read_template(ByteReader in, LandmarkModel& model) {
   model.skeleton_template = in.text("skeleton template");
-  if (model.skeleton_template.empty() || model.skeleton_template.size() > template_limit ||
+  if (model.skeleton_template.empty() || model.skeleton_template.size() > longest_template ||
       !model.skeleton.empty())
     in.fail("the skeleton template is empty, too long, or one too many");
   in.expect_end();

@@ -1,5 +1,6 @@
 // Marked shapes: what training starts from.
 #pragma once
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
@@ -31,6 +32,8 @@ struct SkeletonJoint {
   std::string name;
   int32_t parent = -1;  // comes before it; -1: a root
 };
+
+inline constexpr size_t longest_template = 1 << 20;
 
 struct TrainingSet {
   std::vector<std::string> landmark_names;

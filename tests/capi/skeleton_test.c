@@ -271,6 +271,10 @@ static void check_carried_template(void) {
   CHECK_REFUSED(focal_training_set_set_skeleton(set, JOINTS("{\"name\":\"a\",\"centre\":[\"nothing\"]}")),
                 FOCAL_ERROR_INVALID_ARGUMENT, "nothing");
   CHECK_REFUSED(focal_training_set_set_skeleton(set, "{"), FOCAL_ERROR_INVALID_FILE, "JSON");
+  char* spaces = malloc((1 << 20) + 2);
+  memset(spaces, ' ', (1 << 20) + 1), spaces[(1 << 20) + 1] = 0;
+  CHECK_REFUSED(focal_training_set_set_skeleton(set, spaces), FOCAL_ERROR_UNSUPPORTED, "longer than 1 MiB");
+  free(spaces);
   CHECK_OK(focal_training_set_create(context, NULL, 0, &rigs));
   CHECK_REFUSED(focal_training_set_set_skeleton(rigs, good_template), FOCAL_ERROR_INVALID_ARGUMENT,
                 "without landmark names");
