@@ -94,7 +94,8 @@ class Fitting {
     return starts;
   }
 
-  // Its limbs that hang down side by side, legs above all, each pair exchanged: maps of a stride can take one for the other.
+  // Its limbs that hang down side by side, legs above all, each pair exchanged where it lies crossed: maps of a stride can take one for
+  // the other.
   std::vector<Start> with_exchanged_limbs(const FittedShape& one) const {
     const ArticulatedFit& fit = *fits_[one.shape];
     std::vector<Start> starts;
@@ -105,6 +106,7 @@ class Fitting {
       if (parent >= 0 && counterpart_[parent] >= 0) continue;  // within a limb
       const std::vector<size_t> limb = limb_from(j);
       if (limb.size() < 3 || fit.bone(j).dot(fit.bone(other)) < 0.5) continue;
+      if (!is_crossed(one.posture, limb)) continue;
       Start& start = starts.emplace_back(Start{one.shape, one.posture});
       if (parent >= 0) untwist(fit, static_cast<size_t>(parent), start.posture);
       for (const size_t from : limb) {
@@ -166,6 +168,21 @@ class Fitting {
   }
 
  private:
+  // Whether a limb lies on the other side than the roots of the body's other limbs: their ends swing to and fro.
+  bool is_crossed(const Posture& posture, const std::vector<size_t>& limb) const {
+    Vector3 of_limb = Vector3::Zero(), of_roots = Vector3::Zero();
+    for (size_t j = 0; j < counterpart_.size(); ++j) {
+      const int32_t other = counterpart_[j], parent = start_.joints[j].parent;
+      if (other <= static_cast<int32_t>(j)) continue;
+      const Vector3 way = posture.place[j] - posture.place[other];
+      if (std::find(limb.begin(), limb.end(), j) != limb.end())
+        of_limb += way;
+      else if (parent < 0 || counterpart_[parent] < 0)
+        of_roots += way;
+    }
+    return of_limb.dot(of_roots) < 0;
+  }
+
   // A joint of the middle gets the turn of the next one, as the trunk above the hips has it.
   void untwist(const ArticulatedFit& fit, size_t joint, Posture& posture) const {
     for (size_t j = 0; j < counterpart_.size(); ++j)
