@@ -12,7 +12,8 @@ trap 'kill $server 2> /dev/null; rm -rf "$work"' EXIT
 "$creatures" "$work/samples" --family humanoid --train 6 --test 1
 "$creatures" "$work/samples" --family game_humanoid --train 0 --test 12
 "$(dirname "$0")/../../samples/stock/make.sh" --build "$build" --only humanoid --characters 12 --out "$work/models"
-export FOCAL_GAME_CHARACTER="$work/samples/game_humanoid/game_humanoid_10.glb" FOCAL_STOCK="$work/models/humanoid.focal"
+export FOCAL_GAME_CHARACTER="$work/samples/game_humanoid/game_humanoid_10.glb" FOCAL_STOCK="$work/models/stock.focal"
+mv "$work/models/humanoid.focal" "$FOCAL_STOCK"  # another model of that name is trained here
 mkdir -p "$work/scripts" "$work/config" "$work/out"
 export BLENDER_USER_SCRIPTS="$work/scripts" BLENDER_USER_CONFIG="$work/config" LIBGL_ALWAYS_SOFTWARE=1
 exec 3> "$work/display"

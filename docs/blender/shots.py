@@ -41,15 +41,15 @@ def shoot(name):
     call(bpy.ops.screen.screenshot_area, filepath=os.path.join(OUT, name + ".png"))
 
 
-def show(*objects):
-    """Only these, from the front."""
+def show(*objects, axis="BACK"):
+    """Only these, from the front: the samples look to +Y."""
     for obj in bpy.data.objects:
         if obj.type == "MESH":
             obj.hide_set(obj not in objects)
     activate(objects[0])
     for obj in objects:
         obj.select_set(True)
-    call(bpy.ops.view3d.view_axis, type="BACK")  # the samples look to +Y
+    call(bpy.ops.view3d.view_axis, type=axis)
     call(bpy.ops.view3d.view_selected)
     for obj in objects:
         obj.select_set(False)
@@ -201,9 +201,10 @@ def rig_shot():
     before = set(bpy.data.objects)
     call(bpy.ops.import_scene.gltf, filepath=GAME_CHARACTER)
     parts = [obj for obj in bpy.data.objects if obj not in before and obj.type == "MESH"]
-    settings.model_path = STOCK
+    shutil.copy(STOCK, OUT)
+    settings.model_path = "//" + os.path.basename(STOCK)
     open_panels("Detect", "Rig")
-    show(*parts)
+    show(*parts, axis="FRONT")  # it is turned
     for obj in parts:
         obj.select_set(True)
     call(bpy.ops.focal.rig)
