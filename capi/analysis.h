@@ -2,8 +2,8 @@
 #pragma once
 #include <memory>
 
+#include "analysis/surface_analysis.h"
 #include "handles.h"
-#include "landmarks/surface_analysis.h"
 #include "mesh.h"
 
 namespace focal {

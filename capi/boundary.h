@@ -29,7 +29,7 @@ const char* last_error() noexcept;
 template <class Body>
 focal_status guarded(Body&& body) noexcept {
   const DefaultFloatEnvironment environment;
-  const KeepTo memory(nullptr);  // resolve() finds the budget
+  const ScopedMemoryBudget memory(nullptr);  // resolve() finds the budget
   try {
     std::forward<Body>(body)();
     return FOCAL_OK;

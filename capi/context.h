@@ -9,7 +9,7 @@
 #include "base/parallel.h"
 #include "compute/module_loader.h"
 #include "handles.h"
-#include "landmarks/stock_models.h"
+#include "model/stock_models.h"
 
 namespace focal {
 

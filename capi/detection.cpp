@@ -6,11 +6,11 @@
 #include <utility>
 
 #include "analysis.h"
+#include "analysis/analysis_file.h"
 #include "arguments.h"
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "boundary.h"
-#include "landmarks/analysis_file.h"
 #include "structs.h"
 #include "surface_points.h"
 #include "task.h"

@@ -63,7 +63,7 @@ std::shared_ptr<const MemoryBudget> memory_budget_of(const Object& object) {
 template <class Object>
 std::shared_ptr<Object> resolve(const typename Object::Handle* handle) {
   auto object = std::static_pointer_cast<Object>(find_handle(handle, Object::type));
-  KeepTo::adopt(memory_budget_of(*object));
+  ScopedMemoryBudget::adopt(memory_budget_of(*object));
   return object;
 }
 

@@ -6,7 +6,7 @@
 #include "base/lazy.h"
 #include "context.h"
 #include "handles.h"
-#include "landmarks/landmark_model.h"
+#include "model/model_info.h"
 #include "skeleton/skeleton_template.h"
 
 namespace focal {

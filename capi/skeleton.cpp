@@ -30,7 +30,7 @@ struct StructTraits<focal_skeleton_params> {
   static constexpr size_t first_size = offsetof(focal_skeleton_params, max_influences);
   static focal_skeleton_params defaults() {
     focal_skeleton_params params{};
-    params.max_influences = most_influences;
+    params.max_influences = max_influences;
     return params;
   }
 };
@@ -69,7 +69,7 @@ void check(const focal_skeleton_params& params) {
   check_flag("focal_skeleton_params.symmetric", params.symmetric);
   check_flag("focal_skeleton_params.ground_root", params.ground_root);
   check_reserved("focal_skeleton_params.reserved_2", params.reserved_2);
-  check_range("focal_skeleton_params.max_influences", params.max_influences, 1, 2 * most_influences);
+  check_range("focal_skeleton_params.max_influences", params.max_influences, 1, 2 * max_influences);
 }
 
 // The caller's, else the one that the model carries; nothing: rigged characters taught it.
@@ -145,7 +145,7 @@ void put_root(const focal_skeleton_params& params, SkeletonObject& object) {
   for (JointAnimation& one : object.animations) one.joints.insert(one.joints.begin(), JointKeys{});
 }
 
-void judge(SkeletonObject& object, const RigMeasures& measures) {
+void set_verdict(SkeletonObject& object, const RigMeasures& measures) {
   object.verdict = verdict_of(measures), object.quality = rig_quality(measures);
   object.guessed_joints = static_cast<uint32_t>(
       std::lround(measures.absent_share * static_cast<double>(object.rig.rig.joints.size())));
@@ -157,7 +157,7 @@ void judge(SkeletonObject& object, const RigMeasures& measures) {
 }
 
 // The skeleton of the mesh's own file, if it has one that can be read: what is wrong with it is no reason not to give it another.
-std::optional<Rig> former_rig(const MeshObject& mesh) {
+std::optional<Rig> previous_rig(const MeshObject& mesh) {
   if (!mesh.document) return std::nullopt;
   try {
     return mesh.document->rig(mesh.primitives);
@@ -168,7 +168,7 @@ std::optional<Rig> former_rig(const MeshObject& mesh) {
 
 // Clips of the mesh's own file that move a skeleton which no mesh follows any more.
 std::vector<std::string> clips_of_former_skeleton(const MeshObject& mesh, const std::vector<Joint>& joints) {
-  const auto former = former_rig(mesh);
+  const auto former = previous_rig(mesh);
   std::vector<std::string> names;
   if (!former || names_of(former->joints) == names_of(joints)) return names;  // rigged by this model before
   try {
@@ -181,7 +181,7 @@ std::vector<std::string> clips_of_former_skeleton(const MeshObject& mesh, const 
 
 // The joints of the mesh's own file that the new ones stand for.
 std::vector<ReplacedJoint> replaced_joints(const MeshObject& mesh, const std::vector<Joint>& joints) {
-  const auto former = former_rig(mesh);
+  const auto former = previous_rig(mesh);
   if (!former) return {};
   const JointMatch match = match_joints(names_of(joints), names_of(former->joints));
   std::vector<ReplacedJoint> result(joints.size());
@@ -274,7 +274,7 @@ focal_status focal_skeleton_create(const focal_detection* detection, const focal
       object->rig.warnings.push_back(
           "animations of the file move its former skeleton, which the mesh does not follow any more: " +
           listed(idle) + "; --animations (animations) plays them on the new one");
-    judge(*object, measures);
+    set_verdict(*object, measures);
     if (how.ground_root) put_root(how, *object);
     object->context->report_warnings(object->rig.warnings);
     *out_skeleton = publish(object);
@@ -300,7 +300,7 @@ focal_status focal_skeleton_get_info(const focal_skeleton* skeleton, focal_skele
     info.quality = object->quality;
     info.verdict = static_cast<focal_verdict>(object->verdict);
     info.guessed_joints = object->guessed_joints;
-    info.influences_per_vertex = (rig.more.empty() ? 1 : 2) * most_influences;
+    info.influences_per_vertex = (rig.more.empty() ? 1 : 2) * max_influences;
     const auto count = [](const VertexInfluences& one) {
       return std::count_if(one.begin(), one.end(), [](const Influence& i) { return i.weight > 0; });
     };

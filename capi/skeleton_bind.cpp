@@ -20,7 +20,7 @@ struct StructTraits<focal_bind_params> {
   static constexpr size_t first_size = sizeof(focal_bind_params);
   static focal_bind_params defaults() {
     focal_bind_params params{};
-    params.max_influences = most_influences;
+    params.max_influences = max_influences;
     return params;
   }
 };
@@ -29,7 +29,7 @@ static_assert(sizeof(void*) != 8 ||
 
 namespace {
 
-constexpr double most_joints = 65536;
+constexpr double max_joints = 65536;
 
 [[noreturn]] void fail(uint64_t joint, const std::string& what, const std::string& hint) {
   throw Error(Status::invalid_argument, "joint " + std::to_string(joint) + " " + what, hint);
@@ -58,7 +58,7 @@ Joint joint_at(const focal_bind_params& params, uint64_t j) {
 }
 
 OwnSkeleton given_skeleton(const focal_bind_params& params) {
-  check_range("focal_bind_params.joint_count", static_cast<double>(params.joint_count), 1, most_joints);
+  check_range("focal_bind_params.joint_count", static_cast<double>(params.joint_count), 1, max_joints);
   require(params.joint_parents, "focal_bind_params.joint_parents");
   require(params.joint_positions, "focal_bind_params.joint_positions");
   OwnSkeleton result;
@@ -105,7 +105,7 @@ focal_status focal_skeleton_bind(const focal_context* context, const focal_mesh*
     object->context = resolve<ContextObject>(context);
     object->mesh = resolve<MeshObject>(mesh);
     const focal_bind_params how = read_struct(params);
-    check_range("focal_bind_params.max_influences", how.max_influences, 1, 2 * most_influences);
+    check_range("focal_bind_params.max_influences", how.max_influences, 1, 2 * max_influences);
     object->keeps_joints = !how.joint_names;
     const OwnSkeleton skeleton =
         object->keeps_joints ? skeleton_in_file(how, *object->mesh) : given_skeleton(how);

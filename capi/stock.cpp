@@ -2,8 +2,8 @@
 #include "arguments.h"
 #include "base/atomic_file.h"
 #include "boundary.h"
-#include "landmarks/model_file.h"
 #include "model.h"
+#include "model/model_file.h"
 
 using namespace focal;
 

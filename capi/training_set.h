@@ -6,7 +6,7 @@
 
 #include "context.h"
 #include "handles.h"
-#include "landmarks/training_set.h"
+#include "model/training_set.h"
 #include "skeleton/rigged_shapes.h"
 
 namespace focal {

@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "creatures/character.h"
-#include "landmarks/training_set.h"
 #include "mesh/prepare.h"
+#include "model/training_set.h"
 
 namespace focal_test {
 

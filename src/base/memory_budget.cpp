@@ -11,7 +11,7 @@ namespace {
 
 constinit std::atomic<int64_t> held{0};
 
-// Each thread's innermost KeepTo. Not thread_local: the C library ends the process when it cannot allocate a library's
+// Each thread's innermost ScopedMemoryBudget. Not thread_local: the C library ends the process when it cannot allocate a library's
 // variables of a thread, at any first use of one, while a key asks for nothing or says so. Made with the first budget.
 class Innermost {
  public:
@@ -24,11 +24,12 @@ class Innermost {
     if (pthread_key_create(&key_, nullptr) != 0) throw std::bad_alloc();
     made_.store(true, std::memory_order_release);
   }
-  KeepTo* get() const {
-    return made_.load(std::memory_order_acquire) ? static_cast<KeepTo*>(pthread_getspecific(key_)) : nullptr;
+  ScopedMemoryBudget* get() const {
+    return made_.load(std::memory_order_acquire) ? static_cast<ScopedMemoryBudget*>(pthread_getspecific(key_))
+                                                 : nullptr;
   }
   // Needs memory only for the first one of a thread that is not null. Without memory nothing changes.
-  void set(KeepTo* scope) {
+  void set(ScopedMemoryBudget* scope) {
     if (made_.load(std::memory_order_acquire)) pthread_setspecific(key_, scope);
   }
 
@@ -46,21 +47,22 @@ MemoryBudget::MemoryBudget(int64_t bytes) : limit(bytes) { innermost.make(); }
 int64_t memory_held() { return held.load(std::memory_order_relaxed); }
 
 const MemoryBudget* memory_budget() {
-  const KeepTo* const scope = innermost.get();
+  const ScopedMemoryBudget* const scope = innermost.get();
   return scope ? scope->budget_ : nullptr;
 }
 
-KeepTo::KeepTo(const MemoryBudget* budget) noexcept : outer_(innermost.get()), budget_(budget) {
+ScopedMemoryBudget::ScopedMemoryBudget(const MemoryBudget* budget) noexcept
+    : outer_(innermost.get()), budget_(budget) {
   innermost.set(this);
 }
 
-KeepTo::~KeepTo() {
+ScopedMemoryBudget::~ScopedMemoryBudget() {
   if (innermost.get() == this) innermost.set(outer_);
 }
 
-void KeepTo::adopt(std::shared_ptr<const MemoryBudget> budget) {
+void ScopedMemoryBudget::adopt(std::shared_ptr<const MemoryBudget> budget) {
   if (!budget) return;
-  KeepTo* const scope = innermost.get();
+  ScopedMemoryBudget* const scope = innermost.get();
   if (!scope) throw std::bad_alloc();  // its constructor had no memory
   if (scope->budget_) return;
   scope->owner_ = std::move(budget);
@@ -78,7 +80,7 @@ bool take_memory(int64_t bytes) {
 
 void give_memory(int64_t bytes) { held.fetch_sub(bytes, std::memory_order_relaxed); }
 
-MemoryElsewhere::MemoryElsewhere(int64_t bytes) : bytes_(bytes) {
+ExternalAllocation::ExternalAllocation(int64_t bytes) : bytes_(bytes) {
   if (!take_memory(bytes)) throw std::bad_alloc();
 }
 

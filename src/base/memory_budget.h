@@ -22,12 +22,12 @@ int64_t memory_held();
 const MemoryBudget* memory_budget();
 
 // Allocations of this thread keep to the budget, null: to none, until the end of the scope.
-class KeepTo {
+class ScopedMemoryBudget {
  public:
-  explicit KeepTo(const MemoryBudget* budget) noexcept;
-  ~KeepTo();
-  KeepTo(const KeepTo&) = delete;
-  KeepTo& operator=(const KeepTo&) = delete;
+  explicit ScopedMemoryBudget(const MemoryBudget* budget) noexcept;
+  ~ScopedMemoryBudget();
+  ScopedMemoryBudget(const ScopedMemoryBudget&) = delete;
+  ScopedMemoryBudget& operator=(const ScopedMemoryBudget&) = delete;
 
   // To this one instead, to the end of this thread's innermost scope, unless that has one. null is fine. Throws
   // std::bad_alloc.
@@ -35,7 +35,7 @@ class KeepTo {
 
  private:
   friend const MemoryBudget* memory_budget();
-  KeepTo* outer_ = nullptr;
+  ScopedMemoryBudget* outer_ = nullptr;
   const MemoryBudget* budget_;
   std::shared_ptr<const MemoryBudget> owner_;
 };
@@ -45,12 +45,12 @@ bool take_memory(int64_t bytes);
 void give_memory(int64_t bytes);
 
 // What another library allocates for us. Throws std::bad_alloc when the budget does not allow it.
-class MemoryElsewhere {
+class ExternalAllocation {
  public:
-  explicit MemoryElsewhere(int64_t bytes);
-  ~MemoryElsewhere() { give_memory(bytes_); }
-  MemoryElsewhere(const MemoryElsewhere&) = delete;
-  MemoryElsewhere& operator=(const MemoryElsewhere&) = delete;
+  explicit ExternalAllocation(int64_t bytes);
+  ~ExternalAllocation() { give_memory(bytes_); }
+  ExternalAllocation(const ExternalAllocation&) = delete;
+  ExternalAllocation& operator=(const ExternalAllocation&) = delete;
 
  private:
   int64_t bytes_;

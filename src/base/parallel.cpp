@@ -52,12 +52,12 @@ void parallel_for(const Execution& execution, int64_t count, const std::function
   };
   if (execution.host_parallel_for && count > 1) {
     execution.host_parallel_for(count, [&](int64_t i) {  // on threads that know nothing of the budget
-      const KeepTo kept(budget);
+      const ScopedMemoryBudget kept(budget);
       guarded(i);
     });
   } else {
     const auto work = [&]() noexcept {
-      const KeepTo kept(budget);
+      const ScopedMemoryBudget kept(budget);
       for (int64_t i; (i = next.fetch_add(1)) < count;) guarded(i);
     };
     JoiningThreads helpers;

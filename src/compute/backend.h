@@ -65,7 +65,7 @@ struct ComputeForest {
 };
 
 // What preset paper votes with: distances at which samples see landmarks, in `columns` columns (landmarks, for each side of
-// the symmetry plane). See landmarks/paper.cpp.
+// the symmetry plane). See paper/paper.cpp.
 struct ComputeIsolines {
   int32_t samples, columns;
   const int32_t* vertex;         // samples

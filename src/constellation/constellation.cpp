@@ -11,27 +11,26 @@
 namespace focal {
 namespace {
 
-constexpr float pair_clip = 8, handedness_clip = 4;
-constexpr float least_gain = 1e-5f;  // a move must gain more than rounding
+constexpr float pair_clip = 8, chirality_clip = 4;
+constexpr float min_gain = 1e-5f;  // a move must gain more than rounding
 
 // sum over b of min((x y_b - y x_b - mean_b)^2 / (2 sd_b^2), clip); inverse = 1 / (sd sqrt 2).
-FOCAL_INLINE float handedness_body(float x, float y, const float* xs, const float* ys, const float* mean,
-                                   const float* inverse, const float* here, int32_t count) {
+FOCAL_INLINE float chirality_body(float x, float y, const float* xs, const float* ys, const float* mean,
+                                  const float* inverse, const float* here, int32_t count) {
   constexpr int width = 16;  // fixed, so that every vector width adds in the same order
   float part[width] = {};
   for (int32_t b = 0; b < count; b += width)  // arrays are padded with inverse = 0
     for (int k = 0; k < width; ++k) {
       const float z = (x * ys[b + k] - y * xs[b + k] - mean[b + k]) * inverse[b + k] * here[b + k];
-      part[k] += std::min(z * z, handedness_clip);
+      part[k] += std::min(z * z, chirality_clip);
     }
   float sum = 0;
   for (const float p : part) sum += p;
   return sum;
 }
-FOCAL_MULTIVERSION(float handedness_cost(float x, float y, const float* xs, const float* ys,
-                                         const float* mean, const float* inverse, const float* here,
-                                         int32_t count),
-                   return handedness_body(x, y, xs, ys, mean, inverse, here, count);)
+FOCAL_MULTIVERSION(float chirality_cost(float x, float y, const float* xs, const float* ys, const float* mean,
+                                        const float* inverse, const float* here, int32_t count),
+                   return chirality_body(x, y, xs, ys, mean, inverse, here, count);)
 
 // Statistics laid out for the inner loop: rows padded to a multiple of 16, inverse deviations, zero where two of the
 // three landmarks are the same.
@@ -47,8 +46,8 @@ struct Tables {
       for (int32_t a = 0; a < L; ++a)
         for (int32_t b = 0; b < L; ++b) {
           if (c == a || c == b || a == b) continue;
-          mean[row(c, a) + b] = s.handedness_mean[s.index(c, a, b)];
-          inverse[row(c, a) + b] = std::sqrt(0.5f) / s.handedness_sd[s.index(c, a, b)];
+          mean[row(c, a) + b] = s.chirality_mean[s.index(c, a, b)];
+          inverse[row(c, a) + b] = std::sqrt(0.5f) / s.chirality_sd[s.index(c, a, b)];
         }
     distance_mean = s.distance_mean;
     distance_inverse = std::sqrt(0.5f) * s.distance_sd.cwiseInverse();
@@ -75,7 +74,7 @@ class Descent {
     unary_ = static_cast<float>(params.unary_weight);
     pair_ = static_cast<float>(params.pair_weight / others);
     certain_ = static_cast<float>(params.certain_weight);
-    handedness_ = static_cast<float>(2 * params.handedness_weight / (others * std::max(1, t_.L - 2)));
+    chirality_ = static_cast<float>(2 * params.chirality_weight / (others * std::max(1, t_.L - 2)));
     for (int32_t l = 0; l < t_.L; ++l) choose(l, start[l]);
   }
 
@@ -103,13 +102,13 @@ class Descent {
       if (o == l || chosen_[o] < 0) continue;
       // At l, from o round to every b (each pair counted twice: halved); at o, from l round to every b.
       const size_t at_l = t_.row(l, o), at_o = t_.row(o, l);
-      triples += 0.5f * handedness_cost(row_x_[o], row_y_[o], row_x_.data(), row_y_.data(), &t_.mean[at_l],
-                                        &t_.inverse[at_l], here_.data(), t_.padded);
+      triples += 0.5f * chirality_cost(row_x_[o], row_y_[o], row_x_.data(), row_y_.data(), &t_.mean[at_l],
+                                       &t_.inverse[at_l], here_.data(), t_.padded);
       triples +=
-          handedness_cost(c_.directions.x(chosen_[o], candidate), c_.directions.y(chosen_[o], candidate),
-                          &xs_(o, 0), &ys_(o, 0), &t_.mean[at_o], &t_.inverse[at_o], here_.data(), t_.padded);
+          chirality_cost(c_.directions.x(chosen_[o], candidate), c_.directions.y(chosen_[o], candidate),
+                         &xs_(o, 0), &ys_(o, 0), &t_.mean[at_o], &t_.inverse[at_o], here_.data(), t_.padded);
     }
-    return unary_ * c_.unary[candidate] + pair_ * pairs + handedness_ * triples;
+    return unary_ * c_.unary[candidate] + pair_ * pairs + chirality_ * triples;
   }
 
   void run(Random& random) {
@@ -133,9 +132,9 @@ class Descent {
       for (int32_t o = 0; o < t_.L; ++o) {
         if (o == l || chosen_[o] < 0) continue;
         if (o < l) sum += pair_ * weight_of(l, o) * pair_cost(l, chosen_[l], o);
-        sum += 0.5 * handedness_ *
-               handedness_cost(xs_(l, o), ys_(l, o), &xs_(l, 0), &ys_(l, 0), &t_.mean[t_.row(l, o)],
-                               &t_.inverse[t_.row(l, o)], here_.data(), t_.padded);
+        sum += 0.5 * chirality_ *
+               chirality_cost(xs_(l, o), ys_(l, o), &xs_(l, 0), &ys_(l, 0), &t_.mean[t_.row(l, o)],
+                              &t_.inverse[t_.row(l, o)], here_.data(), t_.padded);
       }
     }
     return sum;
@@ -168,7 +167,7 @@ class Descent {
   // The candidate that fits the others best, also of a landmark that is left out.
   Option best_option(int32_t l) {
     Option best;
-    if (chosen_[l] >= 0) best = {chosen_[l], cost(l, chosen_[l]) - least_gain};
+    if (chosen_[l] >= 0) best = {chosen_[l], cost(l, chosen_[l]) - min_gain};
     for (int32_t k = c_.start[l]; k < c_.start[l + 1]; ++k) {
       if (k == chosen_[l]) continue;
       if (const float next = cost(l, k); next < best.cost) best = {k, next};
@@ -194,7 +193,7 @@ class Descent {
 
   const Tables& t_;
   const ConstellationCandidates& c_;
-  float unary_, pair_, handedness_, certain_;
+  float unary_, pair_, chirality_, certain_;
   float absent_cost_ = std::numeric_limits<float>::infinity();
   std::vector<int32_t> chosen_;
   RowMatrixf xs_, ys_;  // [at l][to o], chosen ones only
@@ -249,7 +248,7 @@ std::vector<ConstellationChoice> choose_constellations(const ConstellationStatis
     if (std::none_of(distinct.begin(), distinct.end(),
                      [&](const auto& better) { return is_like(result, better, candidates); }))
       distinct.push_back(result);
-    if (static_cast<int32_t>(distinct.size()) == params.most_choices) break;
+    if (static_cast<int32_t>(distinct.size()) == params.max_choices) break;
   }
   return distinct;
 }
@@ -257,14 +256,14 @@ std::vector<ConstellationChoice> choose_constellations(const ConstellationStatis
 ConstellationStatistics learn_constellation(std::span<const ConstellationSample> samples, int32_t landmarks) {
   // What few shapes cannot show: a new body is larger or smaller than those seen. The share of a distance was chosen by
   // cross-validation on training splits (teddy 2.96 -> 2.71 edges, faust5k 1.25 -> 1.24).
-  constexpr float distance_floor = 0.02f, distance_share = 0.08f, handedness_floor = 0.15f;
+  constexpr float distance_floor = 0.02f, distance_share = 0.08f, chirality_floor = 0.15f;
   ConstellationStatistics result;
   result.landmarks = landmarks;
   result.distance_mean = RowMatrixf::Zero(landmarks, landmarks);
   result.distance_sd = RowMatrixf::Constant(landmarks, landmarks, 1e3f);  // never seen together: says nothing
   const size_t triples = static_cast<size_t>(landmarks) * landmarks * landmarks;
-  result.handedness_mean.assign(triples, 0);
-  result.handedness_sd.assign(triples, 1e3f);
+  result.chirality_mean.assign(triples, 0);
+  result.chirality_sd.assign(triples, 1e3f);
   const auto moments = [&](const auto& present, const auto& value, float floor, float share, float& mean,
                            float& sd) {
     double sum = 0, squares = 0;
@@ -287,9 +286,10 @@ ConstellationStatistics learn_constellation(std::span<const ConstellationSample>
               distance_share, result.distance_mean(c, a), result.distance_sd(c, a));
       for (int32_t b = 0; b < landmarks; ++b)
         if (b != a && b != c)
-          moments([&](const auto& s) { return s.handed && s.present[c] && s.present[a] && s.present[b]; },
-                  [&](const auto& s) { return s.directions.handedness(c, a, b); }, handedness_floor, 0,
-                  result.handedness_mean[result.index(c, a, b)], result.handedness_sd[result.index(c, a, b)]);
+          moments(
+              [&](const auto& s) { return s.has_chirality && s.present[c] && s.present[a] && s.present[b]; },
+              [&](const auto& s) { return s.directions.chirality(c, a, b); }, chirality_floor, 0,
+              result.chirality_mean[result.index(c, a, b)], result.chirality_sd[result.index(c, a, b)]);
     }
   return result;
 }

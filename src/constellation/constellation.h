@@ -1,5 +1,5 @@
 // The joint choice of one place a landmark among the peaks of their votes, by what training shapes say of the distances
-// between landmarks and of the handedness of their triples. An isometry keeps both, a reflection negates the second: so
+// between landmarks and of the chirality of their triples. An isometry keeps both, a reflection negates the second: so
 // left and right are told apart in any pose, with no symmetry plane.
 #pragma once
 #include <cstdint>
@@ -12,23 +12,23 @@
 
 namespace focal {
 
-// Over the training shapes. Distances in units of sqrt(area); handedness as in TangentDirections, -1..1.
+// Over the training shapes. Distances in units of sqrt(area); chirality as in TangentDirections, -1..1.
 struct ConstellationStatistics {
   int32_t landmarks = 0;
   RowMatrixf distance_mean, distance_sd;  // L x L, symmetric; sd > 0
-  std::vector<float> handedness_mean,
-      handedness_sd;  // [c][a][b]: at c, from the way to a round to the way to b
-  float mean(int32_t c, int32_t a, int32_t b) const { return handedness_mean[index(c, a, b)]; }
+  std::vector<float> chirality_mean,
+      chirality_sd;  // [c][a][b]: at c, from the way to a round to the way to b
+  float mean(int32_t c, int32_t a, int32_t b) const { return chirality_mean[index(c, a, b)]; }
   size_t index(int32_t c, int32_t a, int32_t b) const {
     return (static_cast<size_t>(c) * landmarks + a) * landmarks + b;
   }
 };
 
 // At each point, the way to every other: the negative gradient of the distance to it, averaged over a small disc and
-// given in a right-handed tangent frame. handedness(c, a, b) = x(c, a) y(c, b) - y(c, a) x(c, b).
+// given in a right-handed tangent frame. chirality(c, a, b) = x(c, a) y(c, b) - y(c, a) x(c, b).
 struct TangentDirections {
   RowMatrixf x, y;  // points x points
-  float handedness(int32_t c, int32_t a, int32_t b) const { return x(c, a) * y(c, b) - y(c, a) * x(c, b); }
+  float chirality(int32_t c, int32_t a, int32_t b) const { return x(c, a) * y(c, b) - y(c, a) * x(c, b); }
 };
 // points: surface points; fields: points x vertices, the distance from each of them; radius: of the disc, same unit.
 TangentDirections tangent_directions(const TriangleMesh& mesh, std::span<const SurfacePoint> points,
@@ -39,7 +39,7 @@ struct ConstellationSample {
   std::vector<char> present;  // L
   RowMatrixf distance;        // L x L
   TangentDirections directions;
-  bool handed = true;  // its triangles all face one way; else nothing is learned of its handedness
+  bool has_chirality = true;  // its triangles all face one way; else nothing is learned of its chirality
 };
 ConstellationStatistics learn_constellation(std::span<const ConstellationSample> samples, int32_t landmarks);
 
@@ -53,13 +53,13 @@ struct ConstellationCandidates {
 };
 
 struct ConstellationParams {
-  double unary_weight = 5, pair_weight = 4, handedness_weight = 2;
+  double unary_weight = 5, pair_weight = 4, chirality_weight = 2;
   double certain_weight =
       4;  // of distances to a landmark that is certain, against those between others: docs/accuracy.md
   double absent_cost = 7;  // of leaving a landmark out, against all that a place costs
   int32_t restarts = 32;
   double energy_margin = 12;  // of the other choices above the best
-  int32_t most_choices = 4;
+  int32_t max_choices = 4;
   uint64_t seed = 0;
 };
 

@@ -24,7 +24,7 @@ void check(const Detection& from, const Detection& to) {
   if (from.model != to.model)
     throw Error(Status::invalid_argument, "the two detections were made by different models",
                 "detect on both meshes with one model");
-  if (!from.analysis || !to.analysis || from.analysis->params.to_the_letter)
+  if (!from.analysis || !to.analysis || from.analysis->params.paper_exact)
     throw Error(Status::invalid_argument, "a detection keeps no analysis that maps can start from",
                 "detect with a model of preset default");
 }
@@ -67,7 +67,7 @@ std::vector<SurfacePoint> nearest_images(const SurfaceAnalysis& a, const Surface
   const RowMatrixf here = b.eigenfunctions.leftCols(map.C.cols()) * map.C.transpose();
   const EmbeddedSurface embedded(b.surface(),
                                  [&](int32_t v) -> Eigen::VectorXf { return here.row(v).transpose(); });
-  const auto triangles_at = triangles_round(b.surface());
+  const auto triangles_at = incident_triangles(b.surface());
   std::vector<SurfacePoint> images(static_cast<size_t>(a.surface().vertex_count()));
   parallel_for(execution, a.surface().vertex_count(), [&](int64_t v) {
     images[v] =

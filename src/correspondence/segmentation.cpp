@@ -10,7 +10,7 @@
 namespace focal {
 namespace {
 
-constexpr int32_t most_rounds = 50;
+constexpr int32_t max_rounds = 50;
 constexpr double descriptor_share = 0.15;  // of SI-HKS beside positions, each of unit spread
 
 const SurfaceAnalysis& analysis_of(const Detection& detection) {
@@ -54,7 +54,7 @@ std::vector<int32_t> nearest_centres(const RowMatrix& features, const RowMatrix&
 std::vector<int32_t> k_means(const RowMatrix& features, RowMatrix centres, const Vector& mass,
                              const Execution& execution) {
   std::vector<int32_t> label;
-  for (int32_t round = 0; round < most_rounds; ++round) {
+  for (int32_t round = 0; round < max_rounds; ++round) {
     execution.check_cancelled();
     auto next = nearest_centres(features, centres);
     if (next == label) break;

@@ -7,7 +7,7 @@
 namespace focal {
 namespace {
 
-constexpr int32_t most_points = 4000;  // that stand for the surface
+constexpr int32_t max_points = 4000;  // that stand for the surface
 
 // Points of the surface in cubes as wide as the largest radius.
 class Cubes {
@@ -49,7 +49,7 @@ class Cubes {
 
 RowMatrixf bulge(const TriangleMesh& mesh, const MatrixX3& normals, const Vector& mass,
                  const Execution& execution) {
-  const int32_t step = std::max(1, mesh.vertex_count() / most_points);
+  const int32_t step = std::max(1, mesh.vertex_count() / max_points);
   const Cubes cubes(mesh.positions, step);
   RowMatrixf result(mesh.vertex_count(), static_cast<Eigen::Index>(bulge_radii.size()));
   parallel_for_ranges(execution, mesh.vertex_count(), 256, [&](int64_t begin, int64_t end) {

@@ -19,11 +19,11 @@ struct DescribedSurface {
   const Eigenbasis& basis;
 };
 
-inline constexpr int32_t most_components = 128;  // of a descriptor: as model files have room for
+inline constexpr int32_t max_components = 128;  // of a descriptor: as model files have room for
 
 struct DescriptorKind {
   std::string_view name;  // a literal: on the command line and in model files
-  int32_t dimension;      // at most most_components
+  int32_t dimension;      // at most max_components
   // vertices: rows of mesh.positions to describe. Returns vertices x dimension.
   RowMatrix (*describe)(const DescribedSurface& surface, std::span<const int32_t> vertices,
                         const Execution& execution);

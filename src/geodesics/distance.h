@@ -72,7 +72,7 @@ struct MeasuredSurface {
   std::span<const std::pair<int32_t, int32_t>>
       bridges;  // pairs of vertices that link separate parts; read by make alone
   const Operators& operators;
-  bool to_the_letter = false;  // as preset `paper` has it (see HeatMethod)
+  bool paper_exact = false;  // as preset `paper` has it (see HeatMethod)
 };
 
 struct DistanceKind {

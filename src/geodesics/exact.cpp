@@ -16,7 +16,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double slack = 1e-10;           // relative: windows that tie stay
-constexpr double least_width = 1e-12;     // of an edge
+constexpr double min_width = 1e-12;       // of an edge
 constexpr int64_t check_interval = 2048;  // windows between two looks at the task
 
 // Lines from (x, y), y <= 0, through the points begin..end of a half-edge into the triangle on its left.
@@ -145,7 +145,7 @@ void Propagation::push_child(const Window& w, double from, double to, bool ends_
   };
   child.begin = ends_at_apex && !is_left ? 0 : meet(from);
   child.end = ends_at_apex && is_left ? length : meet(to);
-  if (child.end - child.begin > least_width * length && leads_somewhere(child, third, is_left)) push(child);
+  if (child.end - child.begin > min_width * length && leads_somewhere(child, third, is_left)) push(child);
 }
 
 void Propagation::spread(const Window& w) {

@@ -180,7 +180,7 @@ DistanceKind heat_distance() {
   return {"heat", true, true,
           [](const MeasuredSurface& surface, const Execution& execution) -> std::shared_ptr<const Distance> {
             return std::make_shared<HeatMethod>(surface.mesh, surface.operators, execution, 1,
-                                                surface.to_the_letter, surface.bridges);
+                                                surface.paper_exact, surface.bridges);
           }};
 }
 

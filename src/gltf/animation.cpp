@@ -38,8 +38,8 @@ void check(const Keys& keys, Eigen::Index width) {
 // Reads keys while there is memory allowed for them: many channels may name one large accessor.
 class KeyReader {
  public:
-  KeyReader(const GltfView& view, GltfBuffers& buffers, int64_t most_bytes)
-      : view_(view), buffers_(buffers), left_(most_bytes) {}
+  KeyReader(const GltfView& view, GltfBuffers& buffers, int64_t max_bytes)
+      : view_(view), buffers_(buffers), left_(max_bytes) {}
 
   Keys read(const tiny::AnimationSampler& sampler, Eigen::Index width) {
     const tiny::Accessor& input = accessor(sampler.input);

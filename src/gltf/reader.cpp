@@ -45,8 +45,8 @@ class Plan {
  public:
   Plan(const tiny::Model& model, const GltfLimits& limits)
       : model_(model),
-        most_vertices_(std::min<int64_t>(limits.vertices, std::numeric_limits<int32_t>::max())),
-        most_triangles_(std::min<int64_t>(limits.triangles, std::numeric_limits<int32_t>::max())) {}
+        max_vertices_(std::min<int64_t>(limits.vertices, std::numeric_limits<int32_t>::max())),
+        max_triangles_(std::min<int64_t>(limits.triangles, std::numeric_limits<int32_t>::max())) {}
 
   void add(const MeshPlacement& placement) {
     const auto& primitives = model_.meshes[static_cast<size_t>(placement.mesh)].primitives;
@@ -73,7 +73,7 @@ class Plan {
   const std::vector<double>& weights_of(const MeshPlacement& placement) const;
 
   const tiny::Model& model_;
-  int64_t most_vertices_, most_triangles_;
+  int64_t max_vertices_, max_triangles_;
   int64_t vertices_ = 0, triangles_ = 0, skipped_ = 0, empty_ = 0, empty_meshes_ = 0;
   std::vector<Part> parts_;
   std::vector<MeshPiece> pieces_;
@@ -109,8 +109,8 @@ void Plan::add(const MeshPlacement& placement, const tiny::Primitive& primitive,
   }
   const int64_t triangle_count =
       primitive.mode == TINYGLTF_MODE_TRIANGLES ? corners / 3 : std::max<int64_t>(corners - 2, 0);
-  require(vertex_count <= most_vertices_ - vertices_, "vertices", most_vertices_);
-  require(triangle_count <= most_triangles_ - triangles_, "triangles", most_triangles_);
+  require(vertex_count <= max_vertices_ - vertices_, "vertices", max_vertices_);
+  require(triangle_count <= max_triangles_ - triangles_, "triangles", max_triangles_);
   const GltfPrimitive range{.mesh = placement.mesh,
                             .primitive = index,
                             .node = placement.node,

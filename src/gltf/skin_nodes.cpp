@@ -8,9 +8,9 @@
 
 #include "base/error.h"
 #include "gltf/accessor_writer.h"
-#include "gltf/former_rig.h"
 #include "gltf/node_references.h"
 #include "gltf/opened.h"
+#include "gltf/previous_rig.h"
 #include "gltf/skin_data.h"
 #include "gltf/text.h"
 
@@ -19,7 +19,7 @@ namespace {
 
 using Json = OrderedJson;
 
-constexpr int32_t most_joints = 65536;  // what 16 bits number
+constexpr int32_t max_joints = 65536;  // what 16 bits number
 
 class SkinInserter {
  public:
@@ -251,7 +251,7 @@ void SkinInserter::retire_former_skins(size_t count) {
 void SkinInserter::add() {
   const Json* former = find(root_, "skins");
   const size_t former_skins = former ? former->size() : 0;
-  FormerRig rig = release_former_rig(root_);
+  FormerRig rig = release_previous_rig(root_);
   free_skins_ = rig.skins;
   pool_.release(rig.nodes);
   if (Json* animations = find(root_, "animations"); animations && animations->is_array())
@@ -288,7 +288,7 @@ void check(std::span<const GltfPrimitive> primitives, const GltfRig& rig) {
   const auto suits = [&](const auto& one_a_joint) {
     return one_a_joint.empty() || one_a_joint.size() == joints;
   };
-  if (joints == 0 || joints > most_joints || vertices != rig.rig->influences.size() || !suits(rig.tips) ||
+  if (joints == 0 || joints > max_joints || vertices != rig.rig->influences.size() || !suits(rig.tips) ||
       !suits(rig.pose) || !suits(rig.replaces))
     throw Error(Status::invalid_argument, "the rig does not suit the mesh",
                 "pass the rig made for this mesh");

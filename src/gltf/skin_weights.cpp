@@ -25,7 +25,7 @@ std::vector<int32_t> numbers_in(const OrderedJson& skin, const std::vector<Joint
 
 // The influences of a primitive's vertices in the numbers of its skin.
 void renumber(const GltfPrimitive& primitive, const std::vector<int32_t>& numbers, Rig& rig) {
-  const size_t most = (rig.more.empty() ? 1 : 2) * most_influences;
+  const size_t most = (rig.more.empty() ? 1 : 2) * max_influences;
   for (int32_t i = 0; i < primitive.vertex_count; ++i) {
     const auto v = static_cast<size_t>(primitive.first_vertex + i);
     std::vector<Influence> all;
@@ -37,7 +37,7 @@ void renumber(const GltfPrimitive& primitive, const std::vector<int32_t>& number
     }
     all = heaviest(all, most);
     for (size_t k = 0; k < all.size(); ++k)
-      (k < most_influences ? rig.influences : rig.more)[v][k % most_influences] = all[k];
+      (k < max_influences ? rig.influences : rig.more)[v][k % max_influences] = all[k];
   }
 }
 

@@ -10,25 +10,25 @@
 namespace focal {
 namespace {
 
-constexpr int32_t features = Calibration::feature_count;
+constexpr int32_t feature_count = Calibration::feature_count;
 
-using Features = std::array<float, features>;
+using Features = std::array<float, feature_count>;
 
 double logistic(double x) { return 1 / (1 + std::exp(-x)); }
 
-// Ridge-regularised logistic regression by Newton's method. Each judged placement also counts as weakly wrong and weakly
+// Ridge-regularised logistic regression by Newton's method. Each samples placement also counts as weakly wrong and weakly
 // right (Platt 1999), so that a perfect training set does not lead to certainty.
 void fit_logistic(const std::vector<Features>& x, const std::vector<double>& target, float* weight) {
   constexpr double ridge = 1.0;
-  Vector w = Vector::Zero(features + 1);
+  Vector w = Vector::Zero(feature_count + 1);
   for (int step = 0; step < 50; ++step) {
-    Matrix hessian = ridge * Matrix::Identity(features + 1, features + 1);
-    hessian(features, features) = 1e-3;  // the bias is free
+    Matrix hessian = ridge * Matrix::Identity(feature_count + 1, feature_count + 1);
+    hessian(feature_count, feature_count) = 1e-3;  // the bias is free
     Vector gradient = -(hessian * w);
     for (size_t i = 0; i < x.size(); ++i) {
-      Vector row(features + 1);
-      for (int f = 0; f < features; ++f) row[f] = x[i][f];
-      row[features] = 1;
+      Vector row(feature_count + 1);
+      for (int f = 0; f < feature_count; ++f) row[f] = x[i][f];
+      row[feature_count] = 1;
       const double p = logistic(w.dot(row));
       gradient += (target[i] - p) * row;
       hessian += p * (1 - p) * row * row.transpose();
@@ -37,23 +37,23 @@ void fit_logistic(const std::vector<Features>& x, const std::vector<double>& tar
     w += move;
     if (move.norm() < 1e-8) break;
   }
-  for (int f = 0; f <= features; ++f) weight[f] = static_cast<float>(w[f]);
+  for (int f = 0; f <= feature_count; ++f) weight[f] = static_cast<float>(w[f]);
 }
 
-float log_level(const Calibration& calibration, int32_t landmark, const Evidence& evidence) {
+float log_level(const Calibration& calibration, int32_t landmark, const PlacementFeatures& features) {
   const float typical = calibration.typical_vote[landmark];
-  return typical > 0 ? std::log(std::clamp(evidence.vote_level / typical, 1e-3f, 1e3f)) : 0;
+  return typical > 0 ? std::log(std::clamp(features.vote_level / typical, 1e-3f, 1e3f)) : 0;
 }
 
-// The evidence for the mesh as a whole: the mean over its landmarks of how far they fit, each within bounds so that one
+// The features for the mesh as a whole: the mean over its landmarks of how far they fit, each within bounds so that one
 // lost landmark does not decide, and how alike the maps find it.
-double mesh_evidence(const Calibration& calibration, const std::vector<int32_t>& landmark,
-                     const std::vector<Evidence>& evidence, float map_residual) {
+double mean_of(const Calibration& calibration, const std::vector<int32_t>& landmark,
+               const std::vector<PlacementFeatures>& features, float map_residual) {
   constexpr double residual_weight = 20;  // of a tenth more: two units, as much as a clear drop of all votes
   double sum = 0;
-  for (size_t i = 0; i < evidence.size(); ++i)
-    sum += std::clamp(log_level(calibration, landmark[i], evidence[i]) - evidence[i].residual, -6.0f, 6.0f);
-  sum /= static_cast<double>(std::max<size_t>(evidence.size(), 1));
+  for (size_t i = 0; i < features.size(); ++i)
+    sum += std::clamp(log_level(calibration, landmark[i], features[i]) - features[i].residual, -6.0f, 6.0f);
+  sum /= static_cast<double>(std::max<size_t>(features.size(), 1));
   if (calibration.typical_residual > 0 && map_residual > 0)
     sum -= residual_weight * std::log(map_residual / calibration.typical_residual);
   return sum;
@@ -65,12 +65,12 @@ double fit_odds(const Calibration& calibration, double mesh) {
 
 float length_feature(float length) { return std::log(std::clamp(length, 0.0f, 0.3f) + 0.005f); }
 
-Features features_of(const Calibration& calibration, int32_t landmark, const Evidence& e, double mesh,
-                     bool mapped) {
+Features features_of(const Calibration& calibration, int32_t landmark, const PlacementFeatures& e,
+                     double mesh, bool mapped) {
   return {e.vote_ratio,
           e.residual,
           log_level(calibration, landmark, e),
-          std::clamp(e.rival, 0.0f, 2.0f),
+          std::clamp(e.runner_up, 0.0f, 2.0f),
           mapped ? length_feature(e.spread) : calibration.typical_length[0],
           mapped ? length_feature(e.gap) : calibration.typical_length[1],
           std::exp(-std::clamp(e.border, 0.0f, 1.0f) / 0.05f),
@@ -79,8 +79,8 @@ Features features_of(const Calibration& calibration, int32_t landmark, const Evi
 }
 
 double weighted(const float* weight, const Features& x) {
-  double sum = weight[features];
-  for (int f = 0; f < features; ++f) sum += weight[f] * x[f];
+  double sum = weight[feature_count];
+  for (int f = 0; f < feature_count; ++f) sum += weight[f] * x[f];
   return sum;
 }
 
@@ -88,36 +88,36 @@ double weighted(const float* weight, const Features& x) {
 struct MeshRange {
   size_t begin, end;
 };
-std::vector<MeshRange> meshes_of(const std::vector<JudgedPlacement>& judged) {
+std::vector<MeshRange> meshes_of(const std::vector<CalibrationSample>& samples) {
   std::vector<MeshRange> result;
-  for (size_t i = 0; i < judged.size(); ++i) {
-    if (i == 0 || judged[i].mesh != judged[i - 1].mesh) result.push_back({i, i});
+  for (size_t i = 0; i < samples.size(); ++i) {
+    if (i == 0 || samples[i].mesh != samples[i - 1].mesh) result.push_back({i, i});
     result.back().end = i + 1;
   }
   return result;
 }
 
-double evidence_of_mesh(const Calibration& calibration, const std::vector<JudgedPlacement>& judged,
-                        const MeshRange& mesh) {
+double mesh_mean(const Calibration& calibration, const std::vector<CalibrationSample>& samples,
+                 const MeshRange& mesh) {
   std::vector<int32_t> landmark;
-  std::vector<Evidence> evidence;
+  std::vector<PlacementFeatures> features;
   for (size_t i = mesh.begin; i < mesh.end; ++i)
-    landmark.push_back(judged[i].landmark), evidence.push_back(judged[i].evidence);
-  return mesh_evidence(calibration, landmark, evidence, judged[mesh.begin].map_residual);
+    landmark.push_back(samples[i].landmark), features.push_back(samples[i].features);
+  return mean_of(calibration, landmark, features, samples[mesh.begin].map_residual);
 }
 
 // Typical votes, errors and residual.
-void learn_typical(const std::vector<JudgedPlacement>& judged, Calibration& result) {
+void learn_typical(const std::vector<CalibrationSample>& samples, Calibration& result) {
   std::vector<int32_t> count(result.typical_vote.size(), 0);
   double error[2] = {}, number[2] = {}, residual = 0, whole = 0;
-  for (const auto& j : judged) {
+  for (const auto& j : samples) {
     if (j.is_whole) residual += j.map_residual, ++whole;
-    result.typical_length[0] += length_feature(j.evidence.spread) / static_cast<float>(judged.size());
-    result.typical_length[1] += length_feature(j.evidence.gap) / static_cast<float>(judged.size());
+    result.typical_length[0] += length_feature(j.features.spread) / static_cast<float>(samples.size());
+    result.typical_length[1] += length_feature(j.features.gap) / static_cast<float>(samples.size());
     if (!j.is_marked) continue;
     const bool near = j.error < near_radius;
     error[near] += j.error, ++number[near];
-    if (near) result.typical_vote[j.landmark] += j.evidence.vote_level, ++count[j.landmark];
+    if (near) result.typical_vote[j.landmark] += j.features.vote_level, ++count[j.landmark];
   }
   for (size_t l = 0; l < count.size(); ++l)
     if (count[l]) result.typical_vote[l] /= static_cast<float>(count[l]);
@@ -126,13 +126,13 @@ void learn_typical(const std::vector<JudgedPlacement>& judged, Calibration& resu
   result.typical_residual = static_cast<float>(residual / std::max(whole, 1.0));
 }
 
-// Category fit: 0.9 at the mean of the whole training meshes' evidence, 0.5 three deviations below.
-void learn_fit(const std::vector<JudgedPlacement>& judged, const std::vector<MeshRange>& meshes,
+// Category fit: 0.9 at the mean of the whole training meshes' features, 0.5 three deviations below.
+void learn_fit(const std::vector<CalibrationSample>& samples, const std::vector<MeshRange>& meshes,
                Calibration& result) {
   double mean = 0, square = 0;
   std::vector<double> values;
   for (const auto& mesh : meshes)
-    if (judged[mesh.begin].is_whole) values.push_back(evidence_of_mesh(result, judged, mesh));
+    if (samples[mesh.begin].is_whole) values.push_back(mesh_mean(result, samples, mesh));
   for (const double m : values) mean += m / static_cast<double>(values.size());
   for (const double m : values) square += (m - mean) * (m - mean) / static_cast<double>(values.size());
   const double spread = std::max(std::sqrt(square), 0.1);
@@ -149,7 +149,7 @@ std::vector<double> softened(const std::vector<char>& is_true) {
   return result;
 }
 
-// The score from which on calling a landmark absent has the best F1 on the judged placements: those that are absent are
+// The score from which on calling a landmark absent has the best F1 on the samples: those that are absent are
 // few, so that even clear ones stay below a probability of a half. Infinity when none is absent.
 double absence_threshold(const std::vector<double>& score, const std::vector<char>& is_absent) {
   std::vector<size_t> order(score.size());
@@ -169,22 +169,22 @@ double absence_threshold(const std::vector<double>& score, const std::vector<cha
 
 }  // namespace
 
-Calibration calibrate(const std::vector<JudgedPlacement>& judged, int32_t landmarks) {
+Calibration calibrate(const std::vector<CalibrationSample>& samples, int32_t landmarks) {
   Calibration result;
   result.typical_vote.assign(landmarks, 0);
-  if (judged.empty()) return result;
-  learn_typical(judged, result);
-  const auto meshes = meshes_of(judged);
-  learn_fit(judged, meshes, result);
+  if (samples.empty()) return result;
+  learn_typical(samples, result);
+  const auto meshes = meshes_of(samples);
+  learn_fit(samples, meshes, result);
   std::vector<Features> x;
   std::vector<char> is_right, is_absent;
   for (const auto& mesh : meshes) {
-    const double evidence = evidence_of_mesh(result, judged, mesh);
+    const double mean = mesh_mean(result, samples, mesh);
     for (size_t i = mesh.begin; i < mesh.end; ++i) {
       x.push_back(
-          features_of(result, judged[i].landmark, judged[i].evidence, evidence, judged[i].map_residual > 0));
-      is_right.push_back(judged[i].is_marked && judged[i].error < near_radius);
-      is_absent.push_back(!judged[i].is_marked);
+          features_of(result, samples[i].landmark, samples[i].features, mean, samples[i].map_residual > 0));
+      is_right.push_back(samples[i].is_marked && samples[i].error < near_radius);
+      is_absent.push_back(!samples[i].is_marked);
     }
   }
   fit_logistic(x, softened(is_right), result.weight);
@@ -192,20 +192,21 @@ Calibration calibrate(const std::vector<JudgedPlacement>& judged, int32_t landma
   std::vector<double> score;
   for (const Features& f : x) score.push_back(weighted(result.absent_weight, f));
   if (const double threshold = absence_threshold(score, is_absent); std::isfinite(threshold))
-    result.absent_weight[features] -= static_cast<float>(threshold);  // so that it lies at a half
+    result.absent_weight[feature_count] -= static_cast<float>(threshold);  // so that it lies at a half
   return result;
 }
 
-Judgement judge(const Calibration& calibration, const std::vector<Evidence>& evidence, float map_residual) {
-  std::vector<int32_t> all(evidence.size());
+ConfidenceEstimate estimate_confidence(const Calibration& calibration,
+                                       const std::vector<PlacementFeatures>& features, float map_residual) {
+  std::vector<int32_t> all(features.size());
   std::iota(all.begin(), all.end(), 0);
-  const double mesh = mesh_evidence(calibration, all, evidence, map_residual);
+  const double mesh = mean_of(calibration, all, features, map_residual);
   const double odds = fit_odds(calibration, mesh);
   // Training shapes are all of the category: what a foreign one looks like was never seen, so it only shuts the gate.
   const double gate = logistic(odds + 6);  // far below what spoiled meshes of the category come to
-  Judgement result{logistic(odds), {}, {}};
+  ConfidenceEstimate result{logistic(odds), {}, {}};
   for (const int32_t l : all) {
-    const Features x = features_of(calibration, l, evidence[l], mesh, map_residual > 0);
+    const Features x = features_of(calibration, l, features[l], mesh, map_residual > 0);
     result.confidence.push_back(gate * logistic(weighted(calibration.weight, x)));
     result.absent.push_back(logistic(weighted(calibration.absent_weight, x)));
   }

@@ -13,8 +13,8 @@ namespace focal {
 namespace {
 
 // All chosen by cross-validation on training splits of nine categories; the errors are flat round them.
-constexpr CarryParams thorough{.map = {.first = 20, .last = 120, .step = 8}, .most_alike = 0};
-constexpr CarryParams quick{.map = {.first = 20, .last = 120, .step = 20}, .spread = 600, .most_alike = 3};
+constexpr TransferParams thorough{.map = {.first = 20, .last = 120, .step = 8}, .most_alike = 0};
+constexpr TransferParams quick{.map = {.first = 20, .last = 120, .step = 20}, .spread = 600, .most_alike = 3};
 constexpr double alike_falloff = 30;  // a map counts exp(-falloff (residual - least residual))
 // Maps that fit this badly are as often wrong as right, which few landmarks or an unlike body cause; worse ones have no say.
 constexpr double doubtful_residual = 0.69, residual_width = 0.015;
@@ -73,35 +73,36 @@ Vector3 normal_at(const TriangleMesh& surface, const MatrixX3& normals, const Su
 }
 
 // How much the map of each training shape counts.
-std::vector<double> weights_of(const std::vector<CarriedMarks>& carried) {
+std::vector<double> weights_of(const std::vector<TransferredLandmarks>& transferred) {
   float least = std::numeric_limits<float>::infinity();
-  for (const auto& shape : carried) least = std::min(least, shape.residual);
+  for (const auto& shape : transferred) least = std::min(least, shape.residual);
   std::vector<double> weights;
-  for (const auto& shape : carried) weights.push_back(std::exp(-alike_falloff * (shape.residual - least)));
+  for (const auto& shape : transferred)
+    weights.push_back(std::exp(-alike_falloff * (shape.residual - least)));
   return weights;
 }
 
-double trust_in(const CarriedMarks& carried) {
-  return 1 / (1 + std::exp((carried.residual - doubtful_residual) / residual_width));
+double trust_in(const TransferredLandmarks& transferred) {
+  return 1 / (1 + std::exp((transferred.residual - doubtful_residual) / residual_width));
 }
 
 // How far from a known place a map carries its landmark, squared; 0 for a mark that the shape lacks.
-double squared_error(const SurfacePoint& place, const std::vector<CarriedPlace>& carried,
+double squared_error(const SurfacePoint& place, const std::vector<TransferredPlace>& transferred,
                      const TriangleMesh& surface) {
   Vector3 sum = Vector3::Zero();
   double total = 0;
-  for (const auto& [at, share] : carried) sum += share * at.position, total += share;
+  for (const auto& [at, share] : transferred) sum += share * at.position, total += share;
   return total > 0 ? (position_of(surface, place) - sum / total).squaredNorm() : 0;
 }
 
 // Maps that carry known landmarks astray count less.
 void trust_known(const Placement& placement, const TriangleMesh& surface,
-                 const std::vector<CarriedMarks>& carried, std::vector<double>& weights) {
-  for (size_t s = 0; s < carried.size(); ++s) {
+                 const std::vector<TransferredLandmarks>& transferred, std::vector<double>& weights) {
+  for (size_t s = 0; s < transferred.size(); ++s) {
     double squares = 0, known = 0;
     for (size_t l = 0; l < placement.fixed.size(); ++l)
       if (placement.is_fixed(l))
-        squares += squared_error(*placement.fixed[l], carried[s].places[l], surface), ++known;
+        squares += squared_error(*placement.fixed[l], transferred[s].places[l], surface), ++known;
     if (known > 0) weights[s] /= 1 + squares / known / (wrong_map * wrong_map);
   }
 }
@@ -110,31 +111,32 @@ void trust_known(const Placement& placement, const TriangleMesh& surface,
 // weight, which counts.
 std::vector<Opinion> opinions_on(int32_t landmark, const SurfacePoint& own, double own_share,
                                  const TriangleMesh& surface, const MatrixX3& normals,
-                                 const std::vector<CarriedMarks>& carried,
+                                 const std::vector<TransferredLandmarks>& transferred,
                                  const std::vector<double>& weights) {
   const double mean =
       std::accumulate(weights.begin(), weights.end(), 0.0) / static_cast<double>(weights.size());
   std::vector<Opinion> opinions = {
       {position_of(surface, own), own_share * mean, normal_at(surface, normals, own)}};
-  for (size_t s = 0; s < carried.size(); ++s)
-    for (const auto& [at, share] : carried[s].places[landmark])
-      opinions.push_back({at.position, weights[s] * share * trust_in(carried[s]), at.normal.normalized()});
+  for (size_t s = 0; s < transferred.size(); ++s)
+    for (const auto& [at, share] : transferred[s].places[landmark])
+      opinions.push_back(
+          {at.position, weights[s] * share * trust_in(transferred[s]), at.normal.normalized()});
   return opinions;
 }
 
 // Maps of the training shapes that start from the landmarks that were not left out; nothing when those are
 // too few to start from.
 std::vector<ShapeMap> maps_from(const LandmarkModel& model, const SurfaceAnalysis& analysis,
-                                const Placement& placement, const CarryParams& params,
+                                const Placement& placement, const TransferParams& params,
                                 const Execution& execution) {
   std::vector<int32_t> trusted;
   std::vector<SurfacePoint> starts;
   for (size_t l = 0; l < placement.vertex.size(); ++l) {
-    if (placement.vertex[l] < 0 || placement.evidence[l].left_out) continue;
+    if (placement.vertex[l] < 0 || placement.features[l].left_out) continue;
     trusted.push_back(static_cast<int32_t>(l)), starts.push_back(placement.point[l]);
   }
-  if (model.atlas.empty() || trusted.size() < 3) return {};
-  return map_shapes(model.atlas, placement.exemplars, model.reach, analysis, trusted,
+  if (model.exemplars.empty() || trusted.size() < 3) return {};
+  return map_shapes(model.exemplars, placement.exemplars, model.reach, analysis, trusted,
                     analysis.metric->distances(starts, execution), params, execution);
 }
 
@@ -145,7 +147,7 @@ MapFit fit_of(const LandmarkModel& model, const SurfaceAnalysis& analysis,
   for (const ShapeMap& one : maps) {
     result.residual += one.map.residual / static_cast<double>(maps.size());
     result.bulge_agreement +=
-        bulge_agreement(model.atlas[one.shape], one.map, analysis) / static_cast<double>(maps.size());
+        bulge_agreement(model.exemplars[one.shape], one.map, analysis) / static_cast<double>(maps.size());
   }
   return result;
 }
@@ -154,36 +156,36 @@ MapFit fit_of(const LandmarkModel& model, const SurfaceAnalysis& analysis,
 
 MapFit quick_map_fit(const LandmarkModel& model, const SurfaceAnalysis& analysis, const Placement& placement,
                      int32_t shapes, const Execution& execution) {
-  CarryParams params = quick;
+  TransferParams params = quick;
   params.most_alike = shapes;
   return fit_of(model, analysis, maps_from(model, analysis, placement, params, execution));
 }
 
-void join_carried_marks(const LandmarkModel& model, const SurfaceAnalysis& analysis, Quality quality,
-                        Placement& placement, const Execution& execution) {
+void join_transferred_landmarks(const LandmarkModel& model, const SurfaceAnalysis& analysis, Quality quality,
+                                Placement& placement, const Execution& execution) {
   const bool best = quality == Quality::best;
   auto maps = maps_from(model, analysis, placement, best ? thorough : quick, execution);
-  const auto carried = carry_marks(model.atlas, maps, analysis, execution);
-  if (carried.empty()) return;
+  const auto transferred = transfer_landmarks(model.exemplars, maps, analysis, execution);
+  if (transferred.empty()) return;
   const MapFit fit = fit_of(model, analysis, maps);
   placement.bulge_agreement = static_cast<float>(fit.bulge_agreement);
   if (best) placement.map_residual = static_cast<float>(fit.residual), placement.maps = std::move(maps);
   std::vector<int32_t> placed;
   for (size_t l = 0; l < placement.vertex.size(); ++l)
     if (placement.vertex[l] >= 0) placed.push_back(static_cast<int32_t>(l));
-  std::vector<double> weights = weights_of(carried);
+  std::vector<double> weights = weights_of(transferred);
   const TriangleMesh& surface = analysis.surface();
-  trust_known(placement, surface, carried, weights);
+  trust_known(placement, surface, transferred, weights);
   const MatrixX3 normals = area_normals(surface);
   std::vector<SurfaceQuery> queries;
   for (size_t p = 0; p < placed.size(); ++p) {
-    Evidence& evidence = placement.evidence[placed[p]];
-    const auto opinions = opinions_on(placed[p], placement.point[placed[p]], evidence.left_out ? 1e-3 : 1,
-                                      surface, normals, carried, weights);
+    PlacementFeatures& features = placement.features[placed[p]];
+    const auto opinions = opinions_on(placed[p], placement.point[placed[p]], features.left_out ? 1e-3 : 1,
+                                      surface, normals, transferred, weights);
     const Consensus consensus = consensus_of(opinions);
     if (best) {  // what a few shapes say differs from what confidence was learned on
-      evidence.spread = static_cast<float>(consensus.spread);
-      evidence.gap = static_cast<float>((consensus.position - opinions[0].position).norm());
+      features.spread = static_cast<float>(consensus.spread);
+      features.gap = static_cast<float>((consensus.position - opinions[0].position).norm());
     }
     queries.push_back({consensus.position, consensus.normal});
   }

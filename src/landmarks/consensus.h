@@ -1,17 +1,17 @@
 // What the maps from the training shapes say of a placement: where between the votes' place and the carried marks each
 // landmark lies, and how well they agree.
 #pragma once
-#include "landmarks/atlas.h"
-#include "landmarks/model_parts.h"
+#include "landmarks/exemplar_maps.h"
 #include "landmarks/placement.h"
+#include "model/landmark_model.h"
 
 namespace focal {
 
 // Moves each placed landmark to where its own place and the marks carried over from all training shapes agree, and records
-// in its evidence how well they do. Quality `interactive` asks a few shapes in fewer rounds and leaves the evidence as it is.
+// in its features how well they do. Quality `interactive` asks a few shapes in fewer rounds and leaves the features as it is.
 // The maps of quality `best` stay in the placement.
-void join_carried_marks(const LandmarkModel& model, const SurfaceAnalysis& analysis, Quality quality,
-                        Placement& placement, const Execution& execution);
+void join_transferred_landmarks(const LandmarkModel& model, const SurfaceAnalysis& analysis, Quality quality,
+                                Placement& placement, const Execution& execution);
 
 // How well maps of training shapes, started from the placement, fit.
 struct MapFit {

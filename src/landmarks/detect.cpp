@@ -2,15 +2,15 @@
 
 #include <algorithm>
 
+#include "analysis/device_engine.h"
+#include "analysis/surface_analysis.h"
 #include "base/error.h"
 #include "base/stopwatch.h"
 #include "compute/module_loader.h"
-#include "landmarks/backend_surface.h"
 #include "landmarks/confidence.h"
-#include "landmarks/model_parts.h"
-#include "landmarks/paper.h"
 #include "landmarks/placement.h"
-#include "landmarks/surface_analysis.h"
+#include "model/landmark_model.h"
+#include "paper/paper.h"
 
 namespace focal {
 namespace {
@@ -30,21 +30,21 @@ LandmarkStatus status_of(double confidence, double absent, const DetectParams& p
   return confidence >= params.absent_confidence ? LandmarkStatus::uncertain : LandmarkStatus::absent;
 }
 
-// place, rival: on the full surface.
+// place, runner_up: on the full surface.
 DetectedLandmark landmark_at(const LandmarkModel& model, const Proxy& proxy, const Placement& placement,
-                             const Judgement& judgement, int32_t l, const SurfacePoint& place,
+                             const ConfidenceEstimate& estimate, int32_t l, const SurfacePoint& place,
                              const SurfacePoint& rival_place, const DetectParams& params) {
   DetectedLandmark landmark;
   if (placement.vertex[l] < 0) return landmark;             // no vote at all: absent
   const bool paper = model.params.preset == Preset::paper;  // the paper gives no confidence: its vote stands
-  const double confidence = paper ? 1 : judgement.confidence[l];
+  const double confidence = paper ? 1 : estimate.confidence[l];
   static_cast<DetectedPoint&>(landmark) = point_at(*proxy.full, place, confidence);
-  landmark.status = status_of(confidence, paper ? 0 : judgement.absent[l], params);
+  landmark.status = status_of(confidence, paper ? 0 : estimate.absent[l], params);
   landmark.expected_error = proxy.scale() * expected_error_of(model.calibration, confidence);
-  if (placement.rival[l] >= 0) {
-    const float rival = placement.evidence[l].rival;  // shares what the winner leaves, by its votes
+  if (placement.runner_up[l] >= 0) {
+    const float runner_up = placement.features[l].runner_up;  // shares what the winner leaves, by its votes
     landmark.runner_up =
-        point_at(*proxy.full, rival_place, (1 - confidence) * std::min(1.0f, rival / (1 + rival)));
+        point_at(*proxy.full, rival_place, (1 - confidence) * std::min(1.0f, runner_up / (1 + runner_up)));
   }
   return landmark;
 }
@@ -57,22 +57,22 @@ DetectedLandmark known_landmark(const PreparedMesh& mesh, const SurfacePoint& pl
 }
 
 std::vector<DetectedLandmark> landmarks_at(const LandmarkModel& model, const SurfaceAnalysis& analysis,
-                                           const Placement& placement, const Judgement& judgement,
+                                           const Placement& placement, const ConfidenceEstimate& estimate,
                                            const DetectParams& params, const Execution& execution) {
   const auto L = placement.vertex.size();
-  std::vector<int32_t> rivals;
-  for (const int32_t rival : placement.rival) rivals.push_back(std::max(rival, 0));
+  std::vector<int32_t> runners_up;
+  for (const int32_t runner_up : placement.runner_up) runners_up.push_back(std::max(runner_up, 0));
   std::vector<SurfacePoint> places = placement.point;
   for (size_t l = 0; l < L; ++l)
     if (placement.vertex[l] < 0) places[l].triangle = 0;  // stands for none
-  const auto rival_places = points_at(analysis.surface(), rivals);
-  places.insert(places.end(), rival_places.begin(), rival_places.end());
+  const auto runner_up_places = points_at(analysis.surface(), runners_up);
+  places.insert(places.end(), runner_up_places.begin(), runner_up_places.end());
   const auto full = to_full(analysis.proxy, places, execution);
   std::vector<DetectedLandmark> result;
   for (size_t l = 0; l < L; ++l)
     result.push_back(placement.is_fixed(l)
                          ? known_landmark(*analysis.proxy.full, *params.fixed[l])
-                         : landmark_at(model, analysis.proxy, placement, judgement, static_cast<int32_t>(l),
+                         : landmark_at(model, analysis.proxy, placement, estimate, static_cast<int32_t>(l),
                                        full[l], full[L + l], params));
   return result;
 }
@@ -98,7 +98,7 @@ void check_fixed(const DetectParams& params, const LandmarkModel& model) {
 
 bool suits(const AnalysisParams& made, const AnalysisParams& wanted) {
   return made.proxy_vertices == wanted.proxy_vertices && made.eigenpair_count == wanted.eigenpair_count &&
-         made.to_the_letter == wanted.to_the_letter && made.descriptor == wanted.descriptor &&
+         made.paper_exact == wanted.paper_exact && made.descriptor == wanted.descriptor &&
          made.distance == wanted.distance;
 }
 
@@ -116,26 +116,20 @@ void keep_present(const std::shared_ptr<const LandmarkModel>& model, const Surfa
       landmarks[l].status = LandmarkStatus::uncertain;
 }
 
-// What is kept beyond the call takes no memory of the GPU, and cannot fail by it.
-void leave_backend(SurfaceAnalysis& analysis) {
-  if (analysis.on_backend) analysis.on_backend->close();
-  analysis.on_backend = nullptr;
-}
-
 Detection detect_afresh(const std::shared_ptr<const LandmarkModel>& model,
                         const std::shared_ptr<const PreparedMesh>& mesh, const DetectParams& params,
                         const Execution& execution) {
   execution.begin_stage("analysis", 0, 0.4);
   auto analysis = std::make_shared<SurfaceAnalysis>(analyse_for(model->params, mesh, params, execution));
-  if (model->params.oriented && !analysis->on_backend)
+  if (model->params.oriented && !analysis->engine->is_device())
     keep_distances(*analysis, execution);  // voted with once a heading
   Detection result = detect(model, *analysis, params, execution);
   result.seconds.proxy = analysis->proxy_seconds;
   result.seconds.spectrum = analysis->spectrum_seconds;
   result.seconds.descriptors += analysis->descriptor_seconds;
   result.seconds.geodesics += analysis->geodesic_seconds;
-  result.by_backend = analysis->on_backend != nullptr;
-  leave_backend(*analysis);
+  result.by_backend = analysis->engine->is_device();
+  leave_device(*analysis);
   analysis->distances = {};
   result.analysis = std::move(analysis);
   return result;
@@ -180,7 +174,7 @@ SurfaceAnalysis analyse_to_keep(const TrainParams& trained, std::shared_ptr<cons
     how.begin_stage("distances", 0.8, 1);
     keep_distances(result, how);
   });
-  leave_backend(result);
+  leave_device(result);
   return result;
 }
 
@@ -209,9 +203,10 @@ Detection detect(std::shared_ptr<const LandmarkModel> model, const SurfaceAnalys
             : place_landmarks(*model, analysis, params.max_samples, params, execution, result.seconds);
   execution.begin_stage("landmarks", 0.9, 1);
   Stopwatch mapping;
-  const Judgement judgement =
-      paper ? Judgement{} : judge(model->calibration, placement.evidence, placement.map_residual);
-  result.landmarks = landmarks_at(*model, analysis, placement, judgement, params, execution);
+  const ConfidenceEstimate estimate =
+      paper ? ConfidenceEstimate{}
+            : estimate_confidence(model->calibration, placement.features, placement.map_residual);
+  result.landmarks = landmarks_at(*model, analysis, placement, estimate, params, execution);
   keep_present(model, analysis, placement, params, execution, result.landmarks);
   result.places = placement.point;
   for (size_t l = 0; l < result.landmarks.size(); ++l)
@@ -220,14 +215,14 @@ Detection detect(std::shared_ptr<const LandmarkModel> model, const SurfaceAnalys
   result.seconds.refine += mapping.lap();
   result.exemplars = placement.exemplars;
   result.maps = std::move(placement.maps), result.map_residual = placement.map_residual;
-  result.bulge_agreement = placement.bulge_agreement, result.runner_up = placement.runner_up;
+  result.bulge_agreement = placement.bulge_agreement, result.cost_margin = placement.cost_margin;
   result.frame = placement.frame;
   result.has_fixed =
       std::any_of(params.fixed.begin(), params.fixed.end(), [](const auto& one) { return one.has_value(); });
-  result.category_fit = judgement.category_fit;
+  result.category_fit = estimate.category_fit;
   if (const char* warning = analysis.metric->warning()) result.warnings.emplace_back(warning);
   if (!paper && !analysis.proxy.full->is_oriented)
-    result.warnings.push_back("left and right were told apart by distances alone, not by handedness");
+    result.warnings.push_back("left and right were told apart by distances alone, not by chirality");
   if (const int32_t holes = analysis.proxy.filled_holes)
     result.warnings.push_back(std::to_string(holes) + (holes == 1 ? " hole was" : " holes were") +
                               " closed for the analysis");

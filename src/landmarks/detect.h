@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "analysis/surface_analysis.h"
 #include "base/parallel.h"
-#include "landmarks/atlas.h"
-#include "landmarks/landmark_model.h"
-#include "landmarks/params.h"
-#include "landmarks/surface_analysis.h"
+#include "landmarks/exemplar_maps.h"
 #include "mesh/landmark_status.h"
 #include "mesh/prepare.h"
+#include "model/model_info.h"
+#include "model/params.h"
 
 namespace focal {
 
@@ -29,12 +29,6 @@ struct DetectedLandmark : DetectedPoint {
   std::optional<DetectedPoint> runner_up;
 };
 
-// Seconds of wall time a stage; load, repair and proxy are filled by whoever does them.
-struct StageSeconds {
-  double load = 0, repair = 0, proxy = 0, spectrum = 0, descriptors = 0, geodesics = 0, forest = 0, vote = 0,
-         constellation = 0, refine = 0, total = 0;
-};
-
 struct Detection {
   std::shared_ptr<const LandmarkModel> model;
   std::shared_ptr<const PreparedMesh> mesh;
@@ -47,7 +41,7 @@ struct Detection {
   std::vector<int32_t> exemplars;               // training shapes that are most like it
   std::vector<ShapeMap> maps;                   // from training shapes, with quality `best`
   float map_residual = 0, bulge_agreement = 0;  // see Placement
-  double runner_up = 0;
+  double cost_margin = 0;
   Matrix3 frame = Matrix3::Identity();  // likewise
   bool has_fixed = false;               // places of landmarks were given, so how the body faces is known
   RowMatrixf votes;  // landmarks x vertices of proxy.coarse->surface, each row's largest is 1; may be empty

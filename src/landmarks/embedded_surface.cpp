@@ -29,7 +29,7 @@ Vector3 closest_weights(double bb, double bc, double cc, double bp, double cp) {
 
 }  // namespace
 
-std::vector<std::vector<int32_t>> triangles_round(const TriangleMesh& mesh) {
+std::vector<std::vector<int32_t>> incident_triangles(const TriangleMesh& mesh) {
   std::vector<std::vector<int32_t>> result(mesh.vertex_count());
   for (int32_t t = 0; t < mesh.triangle_count(); ++t)
     for (int i = 0; i < 3; ++i) result[mesh.triangles(t, i)].push_back(t);

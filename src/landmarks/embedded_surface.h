@@ -8,7 +8,7 @@
 namespace focal {
 
 // The triangles that use each vertex.
-std::vector<std::vector<int32_t>> triangles_round(const TriangleMesh& mesh);
+std::vector<std::vector<int32_t>> incident_triangles(const TriangleMesh& mesh);
 
 class EmbeddedSurface {
  public:

@@ -3,27 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "descriptors/bulge.h"
-#include "descriptors/descriptor.h"
-
 namespace focal {
-namespace {
-
-// A split looks at a few components drawn from all: those that few numbers hold come several times, to be drawn as often as they
-// deserve.
-constexpr int32_t bulge_copies = 2, frame_copies = 3, frame_components = 6, upright_components = 4;
-constexpr auto bulge_components = static_cast<int32_t>(bulge_radii.size());
-
-constexpr float place_steps = 4000, farthest_place = 8;
-
-}  // namespace
-
-int32_t feature_count(const TrainParams& params) {
-  const int32_t signature = descriptor_kinds()[params.descriptor].dimension;
-  if (params.preset == Preset::paper) return signature;
-  return signature + (params.bulge ? bulge_copies * bulge_components : 0) +
-         (params.oriented ? frame_copies * frame_components : 0);
-}
 
 RowMatrixf features_of(const SurfaceAnalysis& analysis, int32_t count, const TrainParams& params,
                        const Matrix3& frame) {
@@ -41,10 +21,6 @@ RowMatrixf features_of(const SurfaceAnalysis& analysis, int32_t count, const Tra
   return result;
 }
 
-int32_t invariant_feature_count(const TrainParams& params) {
-  return descriptor_kinds()[params.descriptor].dimension + bulge_copies * bulge_components;
-}
-
 RowMatrixf invariant_features(const SurfaceAnalysis& analysis, int32_t count) {
   const Eigen::Index signature = analysis.descriptors.cols();
   RowMatrixf result(count, signature + bulge_copies * bulge_components);
@@ -54,10 +30,6 @@ RowMatrixf invariant_features(const SurfaceAnalysis& analysis, int32_t count) {
       result.row(s).segment<bulge_components>(signature + copy * bulge_components) =
           analysis.bulge.row(analysis.samples[s]);
   return result;
-}
-
-int32_t upright_feature_count(const TrainParams& params) {
-  return invariant_feature_count(params) + frame_copies * upright_components;
 }
 
 RowMatrixf upright_features(const SurfaceAnalysis& analysis, const RowMatrixf& placed) {
@@ -73,13 +45,6 @@ RowMatrixf upright_features(const SurfaceAnalysis& analysis, const RowMatrixf& p
               std::max(std::hypot(placed(s, 0), placed(s, 2)), 1e-6f);
   return result;
 }
-
-uint16_t place_to_file(float value) {
-  return static_cast<uint16_t>(
-      std::lround((std::clamp(value, -farthest_place, farthest_place) + farthest_place) * place_steps));
-}
-
-float place_from_file(uint16_t value) { return static_cast<float>(value) / place_steps - farthest_place; }
 
 RowMatrixf placed_features(const SurfaceAnalysis& analysis, int32_t count) {
   const MatrixX3& positions = analysis.surface().positions;

@@ -2,8 +2,8 @@
 #pragma once
 #include <vector>
 
-#include "landmarks/model_parts.h"
-#include "landmarks/surface_analysis.h"
+#include "analysis/surface_analysis.h"
+#include "model/landmark_model.h"
 
 namespace focal {
 

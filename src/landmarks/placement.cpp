@@ -5,27 +5,23 @@
 #include <limits>
 
 #include "base/stopwatch.h"
-#include "landmarks/backend_surface.h"
 #include "landmarks/consensus.h"
-#include "landmarks/exemplars.h"
+#include "landmarks/exemplar_choice.h"
 #include "landmarks/features.h"
-#include "landmarks/leaf_votes.h"
 #include "landmarks/orientation.h"
-#include "landmarks/refine.h"
+#include "landmarks/refinement.h"
 #include "landmarks/shape_starts.h"
 #include "mesh/fill_holes.h"
 #include "mesh/nearest_vertex.h"
-#include "vote/peaks.h"
-#include "vote/vote.h"
+#include "paper/paper.h"
 
 namespace focal {
 namespace {
 
-constexpr int32_t samples_at_once = 128;  // whose tables are in memory; a multiple of 32
 constexpr double peak_separation = 0.08;  // of sqrt(area), as measured in the reference
 constexpr double disc_radius = 0.04;      // of the tangent directions, likewise
 // Of the maps' residual against the constellation's energy, where several constellations come near the best. On whole and
-// spoiled training shapes left out (six categories, 480 pairs of which one was right), 800 mended 11 and spoiled 2.
+// corrupted training shapes left out (six categories, 480 pairs of which one was right), 800 mended 11 and turned 2 wrong.
 constexpr double residual_weight = 800;
 // Likewise of the correlation of how the surfaces bulge, and of the mean logarithm of the best votes.
 constexpr double bulge_weight = 80, level_weight = 10;
@@ -38,35 +34,6 @@ constexpr size_t tried_starts = 3;  // of training shapes laid over, a heading
 constexpr double cover_margin =
     1.06;                          // of the least distance: headings in which they lie farther off are wrong
 constexpr int32_t few_shapes = 3;  // whose maps judge the votes' places
-
-// Votes of the first `count` samples, vertices x landmarks.
-RowMatrixf cast_votes(const LandmarkModel& model, const SurfaceAnalysis& analysis, const RowMatrixf& features,
-                      const Execution& execution, StageSeconds& seconds) {
-  const auto count = static_cast<int32_t>(features.rows());
-  const auto L = static_cast<int32_t>(model.landmark_names.size());
-  RowMatrixf votes = RowMatrixf::Zero(analysis.metric->vertex_count(), VoteTables::padded(L));
-  Stopwatch watch;
-  if (analysis.on_backend) {
-    votes = analysis.on_backend->votes(model, std::span(analysis.samples).first(count), features);
-    seconds.vote += watch.lap();  // forest, distances and votes in one
-    return votes.leftCols(L);
-  }
-  const LeafVotes leaf_votes(model, features, execution);
-  seconds.forest += watch.lap();
-  for_each_portion(
-      analysis, count, execution, [&](int32_t first, int32_t used, const SampleDistances& portion) {
-        seconds.geodesics += watch.lap();
-        for (int32_t from = 0; from < used; from += samples_at_once) {
-          const int32_t some = std::min(samples_at_once, used - from);
-          const VoteTables tables = leaf_votes.tables(first + from, some, execution);
-          seconds.forest += watch.lap();
-          add_distribution_votes(tables, some, {portion.steps.data(), portion.step, portion.vertices}, from,
-                                 votes, execution);
-          seconds.vote += watch.lap();
-        }
-      });
-  return votes.leftCols(L);
-}
 
 // The places that the caller knows, on the analysed surface.
 std::vector<std::optional<SurfacePoint>> fixed_places(const DetectParams& params,
@@ -100,25 +67,26 @@ ConstellationCandidates make_candidates(const std::vector<std::vector<int32_t>>&
   return candidates;
 }
 
-void record_evidence(const std::vector<std::vector<int32_t>>& peaks,
-                     const ConstellationCandidates& candidates, const ConstellationChoice& choice,
-                     int32_t sample_count, const std::vector<int32_t>& vertices, Placement& result) {
+void record_placement_features(const std::vector<std::vector<int32_t>>& peaks,
+                               const ConstellationCandidates& candidates, const ConstellationChoice& choice,
+                               int32_t sample_count, const std::vector<int32_t>& vertices,
+                               Placement& result) {
   const auto L = static_cast<int32_t>(peaks.size());
-  result.vertex.assign(L, -1), result.rival.assign(L, -1), result.evidence.assign(L, {});
+  result.vertex.assign(L, -1), result.runner_up.assign(L, -1), result.features.assign(L, {});
   for (int32_t l = 0; l < L; ++l) {
     if (choice.candidate[l] < 0) continue;
     const int32_t v = result.vertex[l] = vertices[choice.candidate[l]];
     const float vote = result.votes(v, l);
-    Evidence& evidence = result.evidence[l];
-    evidence = {.vote_ratio = 1 - candidates.unary[choice.candidate[l]],
+    PlacementFeatures& features = result.features[l];
+    features = {.vote_ratio = 1 - candidates.unary[choice.candidate[l]],
                 .residual = choice.residual[l],
                 .vote_level = vote / static_cast<float>(sample_count),
-                .rival = 0,
+                .runner_up = 0,
                 .left_out = choice.left_out[l] != 0};
     for (const int32_t other : peaks[l])
       if (other != v) {
-        result.rival[l] = other;
-        evidence.rival = result.votes(other, l) / std::max(vote, 1e-30f);
+        result.runner_up[l] = other;
+        features.runner_up = result.votes(other, l) / std::max(vote, 1e-30f);
         break;
       }
   }
@@ -142,7 +110,7 @@ void record_borders(const SurfaceAnalysis& analysis, Placement& placement) {
   for (size_t l = 0; l < placement.vertex.size(); ++l) {
     if (placement.vertex[l] < 0) continue;
     const Vector3 place = coarse.centre + coarse.scale * position_of(coarse.surface, placement.point[l]);
-    placement.evidence[l].border = static_cast<float>(std::sqrt(search.nearest(place).second) / coarse.scale);
+    placement.features[l].border = static_cast<float>(std::sqrt(search.nearest(place).second) / coarse.scale);
   }
 }
 
@@ -156,12 +124,12 @@ struct Supposition {
   Placement start;
   double penalty = 0;
 
-  double least_cost() const { return choices[0].energy + penalty; }
+  double min_cost() const { return choices[0].energy + penalty; }
 };
 
-double least_cost(const std::vector<Supposition>& suppositions) {
+double min_cost(const std::vector<Supposition>& suppositions) {
   double least = std::numeric_limits<double>::infinity();
-  for (const Supposition& one : suppositions) least = std::min(least, one.least_cost());
+  for (const Supposition& one : suppositions) least = std::min(least, one.min_cost());
   return least;
 }
 
@@ -174,17 +142,13 @@ Supposition suppose(const LandmarkModel& model, const SurfaceAnalysis& analysis,
   start.frame = heading.frame, result.penalty = heading.penalty;
   start.exemplars = most_alike(model, features, used_exemplars);
   result.statistics = statistics_of(model, start.exemplars);
-  start.votes = cast_votes(model, analysis, features, execution, seconds);
+  start.votes = analysis.engine->votes(analysis, model, features, execution, seconds);
   Stopwatch watch;
   const auto L = static_cast<int32_t>(start.votes.cols());
-  const auto surroundings = [&](int32_t v) {
-    return connected_ball(analysis.operators.L, analysis.surface().positions, v, peak_separation);
-  };
   const int32_t wanted =
       model.params.oriented ? std::min(params.peaks_per_landmark, oriented_peaks) : params.peaks_per_landmark;
   auto& peaks = result.peaks;
-  peaks = analysis.on_backend ? analysis.on_backend->peaks(L, wanted, peak_separation)
-                              : find_peaks(start.votes, L, wanted, 0, surroundings, execution);
+  peaks = analysis.engine->peaks(analysis, start.votes, wanted, peak_separation, execution);
   seconds.vote += watch.lap();
   start.fixed = fixed_places(params, analysis);
   std::vector<char> certain(start.fixed.size());
@@ -194,7 +158,7 @@ Supposition suppose(const LandmarkModel& model, const SurfaceAnalysis& analysis,
   result.candidates.certain = std::move(certain);
   ConstellationParams how;
   if (model.params.oriented) how.restarts = oriented_restarts, how.energy_margin = energy_margin;
-  if (!analysis.proxy.full->is_oriented) how.handedness_weight = 0;
+  if (!analysis.proxy.full->is_oriented) how.chirality_weight = 0;
   result.choices = choose_constellations(result.statistics, result.candidates, how, execution);
   // What the votes are worth beside those of another supposition: a wrong one scatters them.
   for (int32_t l = 0; l < L; ++l)
@@ -213,13 +177,14 @@ struct Hypothesis {
 // Those that the votes suggest.
 std::vector<Hypothesis> hypotheses_of(const std::vector<Supposition>& suppositions, int32_t samples,
                                       const SurfaceAnalysis& analysis, const Execution& execution) {
-  const double least = least_cost(suppositions);
+  const double least = min_cost(suppositions);
   std::vector<Hypothesis> result;
   for (const Supposition& from : suppositions)
     for (const ConstellationChoice& choice : from.choices) {
       if (choice.energy + from.penalty > least + energy_margin) continue;
       result.push_back({choice.energy + from.penalty, from.start});
-      record_evidence(from.peaks, from.candidates, choice, samples, from.vertices, result.back().placement);
+      record_placement_features(from.peaks, from.candidates, choice, samples, from.vertices,
+                                result.back().placement);
       refine_placement(from.statistics, analysis, result.back().placement, execution);
     }
   return result;
@@ -229,7 +194,7 @@ std::vector<Hypothesis> hypotheses_of(const std::vector<Supposition>& suppositio
 Hypothesis hypothesis_of(const LandmarkModel& model, const Supposition& from,
                          const std::vector<int32_t>& exemplars, const std::vector<SurfacePoint>& places,
                          int32_t samples, const SurfaceAnalysis& analysis, const Execution& execution) {
-  Hypothesis result{from.least_cost(), from.start};
+  Hypothesis result{from.min_cost(), from.start};
   Placement& placement = result.placement;
   placement.exemplars = exemplars;
   std::vector<std::vector<int32_t>> corners(places.size());
@@ -246,8 +211,8 @@ Hypothesis hypothesis_of(const LandmarkModel& model, const Supposition& from,
       candidates.unary[i] =
           1 - placement.votes(vertices[i], l) / std::max(placement.votes.col(l).maxCoeff(), 1e-30f);
   const auto choices = choose_constellations(statistics_of(model, exemplars), candidates,
-                                             {.restarts = 1, .most_choices = 1}, execution);
-  record_evidence(from.peaks, candidates, choices[0], samples, vertices, placement);
+                                             {.restarts = 1, .max_choices = 1}, execution);
+  record_placement_features(from.peaks, candidates, choices[0], samples, vertices, placement);
   placement.point = places;
   for (size_t l = 0; l < places.size(); ++l)
     if (placement.is_fixed(l)) placement.point[l] = *placement.fixed[l];
@@ -255,8 +220,8 @@ Hypothesis hypothesis_of(const LandmarkModel& model, const Supposition& from,
 }
 
 // Costs of the hypotheses by maps from them; the cheapest comes first. shapes: see quick_map_fit.
-void judge(const LandmarkModel& model, const SurfaceAnalysis& analysis, int32_t shapes,
-           const Execution& execution, std::vector<Hypothesis>& hypotheses) {
+void rank_by_maps(const LandmarkModel& model, const SurfaceAnalysis& analysis, int32_t shapes,
+                  const Execution& execution, std::vector<Hypothesis>& hypotheses) {
   for (Hypothesis& one : hypotheses) {
     const MapFit fit = quick_map_fit(model, analysis, one.placement, shapes, execution);
     one.cost = one.energy + residual_weight * fit.residual - bulge_weight * fit.bulge_agreement;
@@ -270,13 +235,13 @@ void judge(const LandmarkModel& model, const SurfaceAnalysis& analysis, int32_t 
 void add_laid_over(const LandmarkModel& model, const std::vector<Supposition>& suppositions, int32_t samples,
                    const SurfaceAnalysis& analysis, const Execution& execution,
                    std::vector<Hypothesis>& hypotheses) {
-  const double limit = least_cost(suppositions) + energy_margin;
+  const double limit = min_cost(suppositions) + energy_margin;
   std::vector<ShapeStarts> over;
   double least = std::numeric_limits<double>::infinity();
   for (const Supposition& from : suppositions) {
-    over.push_back(from.least_cost() > limit ? ShapeStarts{}
-                                             : lay_shapes_over(model, analysis, from.start.frame,
-                                                               used_exemplars, tried_starts, execution));
+    over.push_back(from.min_cost() > limit ? ShapeStarts{}
+                                           : lay_shapes_over(model, analysis, from.start.frame,
+                                                             used_exemplars, tried_starts, execution));
     if (!over.back().places.empty()) least = std::min(least, over.back().apart);
   }
   for (size_t s = 0; s < suppositions.size(); ++s)
@@ -300,17 +265,29 @@ Placement place_landmarks(const LandmarkModel& model, const SurfaceAnalysis& ana
   Stopwatch watch;
   std::vector<Hypothesis> hypotheses = hypotheses_of(suppositions, samples, analysis, execution);
   const bool lays_over = can_be_laid_over(model);
-  if (hypotheses.size() > 1 || lays_over) judge(model, analysis, few_shapes, execution, hypotheses);
+  if (hypotheses.size() > 1 || lays_over) rank_by_maps(model, analysis, few_shapes, execution, hypotheses);
   if (lays_over && hypotheses[0].bulge_agreement < convincing_bulge) {
     add_laid_over(model, suppositions, samples, analysis, execution, hypotheses);
-    judge(model, analysis, 0, execution, hypotheses);
+    rank_by_maps(model, analysis, 0, execution, hypotheses);
   }
   Placement result = std::move(hypotheses[0].placement);
-  result.runner_up = hypotheses.size() > 1 ? hypotheses[1].cost - hypotheses[0].cost
-                                           : std::numeric_limits<double>::infinity();
-  join_carried_marks(model, analysis, params.quality, result, execution);
+  result.cost_margin = hypotheses.size() > 1 ? hypotheses[1].cost - hypotheses[0].cost
+                                             : std::numeric_limits<double>::infinity();
+  join_transferred_landmarks(model, analysis, params.quality, result, execution);
   record_borders(analysis, result);
   seconds.refine += watch.lap();
+  return result;
+}
+
+Placement place_landmarks_paper(const LandmarkModel& model, const SurfaceAnalysis& analysis,
+                                const DetectParams& params, const Execution& execution,
+                                StageSeconds& seconds) {
+  PaperVotes votes = paper_votes(model, analysis, params.seed, execution, seconds);
+  Placement result;
+  for (const float level : votes.level) result.features.push_back({.vote_ratio = 1, .vote_level = level});
+  result.runner_up.assign(votes.vertex.size(), -1);
+  result.point = points_at(analysis.surface(), votes.vertex);
+  result.vertex = std::move(votes.vertex), result.votes = std::move(votes.votes);
   return result;
 }
 

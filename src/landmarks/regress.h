@@ -1,6 +1,6 @@
 // What a model's regression makes of an analysed mesh, beside the truth.
 #pragma once
-#include "landmarks/paper.h"
+#include "paper/paper.h"
 
 namespace focal {
 

@@ -10,7 +10,7 @@ namespace focal {
 namespace {
 
 constexpr int32_t compared_points = 400;  // of either shape
-constexpr double most_stretch = 0.4;      // logarithm of what one axis is scaled by, beside the mean of all
+constexpr double max_stretch = 0.4;       // logarithm of what one axis is scaled by, beside the mean of all
 constexpr float mark_radius =
     0.05f;  // of sqrt(area), beyond the nearest point: within it points say where a mark lies
 
@@ -33,7 +33,7 @@ double mean_distance(const MatrixX3& points, const Vector& weight, const Nearest
 }
 
 // Where the points nearest to the mark lie.
-Vector3 place_of_mark(const AtlasShape& shape, float reach, int32_t landmark, const MatrixX3& laid) {
+Vector3 place_of_mark(const Exemplar& shape, float reach, int32_t landmark, const MatrixX3& laid) {
   const Eigen::VectorXf away =
       shape.distances.col(landmark).head(laid.rows()).cast<float>() * (reach / target_steps);
   const float limit = away.minCoeff() + mark_radius;
@@ -47,7 +47,7 @@ Vector3 place_of_mark(const AtlasShape& shape, float reach, int32_t landmark, co
   return sum / total;
 }
 
-std::vector<SurfacePoint> places_by(const AtlasShape& shape, float reach, const MatrixX3& laid,
+std::vector<SurfacePoint> places_by(const Exemplar& shape, float reach, const MatrixX3& laid,
                                     const Matrix3& frame, const SurfaceAnalysis& analysis) {
   std::vector<SurfacePoint> result(shape.marked.size(), SurfacePoint{.triangle = -1});
   std::vector<SurfaceQuery> queries;
@@ -73,30 +73,29 @@ Extents extents_of(const MatrixX3& points, const Vector& weight) {
 Vector3 scale_onto(const Extents& shape, const Extents& other) {
   Vector3 scale = other.deviation.cwiseQuotient(shape.deviation.cwiseMax(1e-9)).cwiseMax(1e-9);
   const double all = std::cbrt(scale.prod());
-  for (double& one : scale)
-    one = all * std::exp(std::clamp(std::log(one / all), -most_stretch, most_stretch));
+  for (double& one : scale) one = all * std::exp(std::clamp(std::log(one / all), -max_stretch, max_stretch));
   return scale;
 }
 
 bool can_be_laid_over(const LandmarkModel& model) {
-  return model.params.oriented && std::any_of(model.atlas.begin(), model.atlas.end(),
-                                              [](const AtlasShape& one) { return one.positions.rows() > 0; });
+  return model.params.oriented && std::any_of(model.exemplars.begin(), model.exemplars.end(),
+                                              [](const Exemplar& one) { return one.positions.rows() > 0; });
 }
 
 ShapeStarts lay_shapes_over(const LandmarkModel& model, const SurfaceAnalysis& analysis, const Matrix3& frame,
                             size_t exemplars, size_t starts, const Execution& execution) {
   ShapeStarts result;
-  for (size_t s = 0; s < model.atlas.size(); ++s)
-    if (model.atlas[s].positions.rows() > 0) result.exemplars.push_back(static_cast<int32_t>(s));
+  for (size_t s = 0; s < model.exemplars.size(); ++s)
+    if (model.exemplars[s].positions.rows() > 0) result.exemplars.push_back(static_cast<int32_t>(s));
   const MatrixX3 body = analysis.surface().positions * frame.transpose();
   const Vector& mass = analysis.operators.mass;
   const NearestVertex tree(body);
   const Extents extents = extents_of(body, mass);
-  std::vector<MatrixX3> laid(model.atlas.size());
-  std::vector<double> apart(model.atlas.size());
+  std::vector<MatrixX3> laid(model.exemplars.size());
+  std::vector<double> apart(model.exemplars.size());
   parallel_for(execution, static_cast<int64_t>(result.exemplars.size()), [&](int64_t i) {
     const int32_t s = result.exemplars[i];
-    const AtlasShape& shape = model.atlas[s];
+    const Exemplar& shape = model.exemplars[s];
     const Vector weight = shape.samples.weight.head(shape.positions.rows()).cast<double>();
     laid[s] = laid_over(shape.positions, weight, extents);
     const NearestVertex own(laid[s]);
@@ -108,7 +107,7 @@ ShapeStarts lay_shapes_over(const LandmarkModel& model, const SurfaceAnalysis& a
   result.exemplars.resize(std::min(exemplars, result.exemplars.size()));
   for (size_t i = 0; i < std::min(starts, result.exemplars.size()); ++i) {
     const int32_t s = result.exemplars[i];
-    result.places.push_back(places_by(model.atlas[s], model.reach, laid[s], frame, analysis));
+    result.places.push_back(places_by(model.exemplars[s], model.reach, laid[s], frame, analysis));
   }
   return result;
 }

@@ -4,28 +4,28 @@
 #include <atomic>
 #include <cmath>
 
+#include "analysis/surface_analysis.h"
+#include "augmentation/corruption.h"
 #include "base/error.h"
 #include "base/random.h"
 #include "descriptors/descriptor.h"
-#include "landmarks/atlas.h"
 #include "landmarks/confidence.h"
+#include "landmarks/exemplar_maps.h"
 #include "landmarks/features.h"
-#include "landmarks/model_parts.h"
 #include "landmarks/orientation.h"
-#include "landmarks/paper.h"
 #include "landmarks/placement.h"
-#include "landmarks/surface_analysis.h"
-#include "mesh/damage.h"
+#include "model/landmark_model.h"
+#include "paper/paper.h"
 
 namespace focal {
 namespace {
 
-constexpr double disc_radius = 0.04;       // of sqrt(area), as in detection
-constexpr int32_t folds = 3;               // of the cross-fitted confidence
-constexpr int32_t spoiled_samples = 1500;  // of each corrupted copy; more of them do not help
+constexpr double disc_radius = 0.04;         // of sqrt(area), as in detection
+constexpr int32_t folds = 3;                 // of the cross-fitted confidence
+constexpr int32_t augmented_samples = 1500;  // of each corrupted copy; more of them do not help
 // Of all shapes and copies, so that models of many shapes stay small; fewer where an orientation makes features say more.
-constexpr double most_samples = 120000, most_oriented_samples = 40000;
-constexpr int32_t most_judged = 24;  // shapes left out in turn to learn confidence from
+constexpr double max_samples = 120000, max_oriented_samples = 40000;
+constexpr int32_t max_calibration_shapes = 24;  // shapes left out in turn to learn confidence from
 
 // What the training keeps of one shape.
 struct LearnedShape {
@@ -35,17 +35,17 @@ struct LearnedShape {
   ConstellationSample constellation;
 };
 
-// A shape to learn from, or one to be judged on.
-struct Lesson {
+// A shape to learn from, or one that calibrates the confidence.
+struct TrainingExample {
   MarkedShape shape;
   SurfaceAnalysis analysis;
   LearnedShape learned;
   Matrix3 frame = Matrix3::Identity();  // in which it stands, see features_of
 };
 // One training shape, whole and corrupted.
-struct Lessons {
-  Lesson whole;
-  std::vector<Lesson> spoiled;
+struct TrainingShape {
+  TrainingExample whole;
+  std::vector<TrainingExample> augmented;
 };
 
 void validate_method(const TrainParams& params) {
@@ -69,7 +69,7 @@ void validate(const TrainingSet& set, const TrainParams& params) {
                 "name at least one landmark");
   if (params.tree_count < 1 || params.components_per_split < 1 || params.min_leaf_samples < 1 ||
       params.eigenpair_count < 8 || params.max_samples_per_shape < 1 || params.proxy_vertices < 0 ||
-      params.spoiled_copies < 0 || !(params.sampling_rate > 0 && params.sampling_rate <= 1))
+      params.augmented_copies < 0 || !(params.sampling_rate > 0 && params.sampling_rate <= 1))
     throw Error(Status::invalid_argument, "a training parameter is out of its range", "start from a preset");
   if (params.preset == Preset::paper && params.proxy_vertices != 0)
     throw Error(Status::invalid_argument, "preset paper analyses a surface as it is, without a proxy",
@@ -114,7 +114,7 @@ LearnedShape learn_shape(const MarkedShape& shape, const SurfaceAnalysis& analys
   const RowMatrixf& fields = result.fields;
   result.targets = RowMatrixf::Constant(analysis.samples.size(), L, NAN);
   auto& constellation = result.constellation;
-  constellation.handed = shape.mesh->is_oriented;
+  constellation.has_chirality = shape.mesh->is_oriented;
   constellation.distance = RowMatrixf::Zero(L, L);
   constellation.directions = {RowMatrixf::Zero(L, L), RowMatrixf::Zero(L, L)};
   const TangentDirections directions =
@@ -133,29 +133,29 @@ LearnedShape learn_shape(const MarkedShape& shape, const SurfaceAnalysis& analys
 }
 
 // Fills the parts of a `default` model that the given shapes teach: forest, targets, reach from all their copies;
-// constellation and atlas from the whole ones, which are what a category looks like.
-void learn_parts(LandmarkModel& model, const std::vector<const Lessons*>& shapes,
+// constellation and exemplars from the whole ones, which are what a category looks like.
+void learn_parts(LandmarkModel& model, const std::vector<const TrainingShape*>& shapes,
                  const Execution& execution) {
-  std::vector<const Lesson*> lessons;
-  std::vector<int32_t> shape_of;  // per lesson
+  std::vector<const TrainingExample*> examples;
+  std::vector<int32_t> shape_of;  // per example
   for (const auto* shape : shapes)
-    shape_of.push_back(static_cast<int32_t>(lessons.size())), lessons.push_back(&shape->whole);
+    shape_of.push_back(static_cast<int32_t>(examples.size())), examples.push_back(&shape->whole);
   for (size_t s = 0; s < shapes.size(); ++s)
-    for (const auto& copy : shapes[s]->spoiled)
-      shape_of.push_back(static_cast<int32_t>(s)), lessons.push_back(&copy);
+    for (const auto& copy : shapes[s]->augmented)
+      shape_of.push_back(static_cast<int32_t>(s)), examples.push_back(&copy);
   model.sample_shape.clear();
-  for (size_t i = 0; i < lessons.size(); ++i)
+  for (size_t i = 0; i < examples.size(); ++i)
     model.sample_shape.insert(model.sample_shape.end(),
-                              static_cast<size_t>(lessons[i]->learned.targets.rows()), shape_of[i]);
+                              static_cast<size_t>(examples[i]->learned.targets.rows()), shape_of[i]);
   Eigen::Index rows = 0;
-  for (const auto* lesson : lessons) rows += lesson->learned.targets.rows();
+  for (const auto* example : examples) rows += example->learned.targets.rows();
   const auto L = static_cast<Eigen::Index>(model.landmark_names.size());
   RowMatrixf descriptors(rows, feature_count(model.params)), targets(rows, L);
   Eigen::Index row = 0;
-  for (const auto* lesson : lessons) {
-    const auto& some = lesson->learned.targets;
+  for (const auto* example : examples) {
+    const auto& some = example->learned.targets;
     descriptors.middleRows(row, some.rows()) =
-        features_of(lesson->analysis, static_cast<int32_t>(some.rows()), model.params, lesson->frame);
+        features_of(example->analysis, static_cast<int32_t>(some.rows()), model.params, example->frame);
     targets.middleRows(row, some.rows()) = some;
     row += some.rows();
   }
@@ -176,12 +176,12 @@ void learn_parts(LandmarkModel& model, const std::vector<const Lessons*>& shapes
   std::vector<ConstellationSample> constellations;
   for (const auto* shape : shapes) constellations.push_back(shape->whole.learned.constellation);
   model.constellation = learn_constellation(constellations, static_cast<int32_t>(L));
-  model.atlas.resize(shapes.size());
+  model.exemplars.resize(shapes.size());
   parallel_for(execution, static_cast<int64_t>(shapes.size()), [&](int64_t s) {
-    const Lesson& whole = shapes[s]->whole;
-    model.atlas[s] = remember_shape(whole.analysis, whole.learned.points, whole.learned.fields, model.reach,
-                                    whole.shape.rig);
-    model.atlas[s].constellation = whole.learned.constellation;
+    const TrainingExample& whole = shapes[s]->whole;
+    model.exemplars[s] = remember_shape(whole.analysis, whole.learned.points, whole.learned.fields,
+                                        model.reach, whole.shape.rig);
+    model.exemplars[s].constellation = whole.learned.constellation;
   });
   const ForestParams forest{.tree_count = model.params.tree_count,
                             .min_leaf_samples = model.params.min_leaf_samples,
@@ -190,16 +190,16 @@ void learn_parts(LandmarkModel& model, const std::vector<const Lessons*>& shapes
                             .seed = model.params.seed};
   if (model.params.oriented && model.params.finds_heading) {
     std::vector<const SurfaceAnalysis*> meshes;
-    for (const Lesson* lesson : lessons) meshes.push_back(&lesson->analysis);
+    for (const TrainingExample* example : examples) meshes.push_back(&example->analysis);
     learn_orientation(model, meshes, execution);
   }
   model.forests.assign(1, grow_forest(bin_descriptors(descriptors, execution), targets, forest, execution));
 }
 
 // The placements of one shape by a model that has not seen it, each with its error. id: another one for each mesh.
-void judge_shape(const LandmarkModel& model, const Lesson& lesson, int32_t id, bool is_whole,
-                 std::vector<JudgedPlacement>& judged, const Execution& execution) {
-  const auto& [shape, analysis, learned, frame] = lesson;
+void place_left_out(const LandmarkModel& model, const TrainingExample& example, int32_t id, bool is_whole,
+                    std::vector<CalibrationSample>& samples, const Execution& execution) {
+  const auto& [shape, analysis, learned, frame] = example;
   const DetectParams detect;
   StageSeconds ignored;
   const auto limit =
@@ -208,43 +208,43 @@ void judge_shape(const LandmarkModel& model, const Lesson& lesson, int32_t id, b
                                               detect, execution, ignored, frame);
   for (size_t l = 0; l < shape.marks.size(); ++l) {
     if (placement.vertex[l] < 0) continue;
-    JudgedPlacement one{
-        static_cast<int32_t>(l), id,      placement.evidence[l], 1, shape.marks[l].has_value(),
+    CalibrationSample one{
+        static_cast<int32_t>(l), id,      placement.features[l], 1, shape.marks[l].has_value(),
         placement.map_residual,  is_whole};
     if (const auto& truth = learned.points[l])
       one.error =
           (position_of(analysis.surface(), placement.point[l]) - position_of(analysis.surface(), *truth))
               .norm();
-    judged.push_back(one);
+    samples.push_back(one);
   }
 }
 
 // The same shape with the defects of a scan (copy 0), or with a part missing: models learn what such meshes look like too.
-std::optional<MarkedShape> spoiled(const MarkedShape& shape, int32_t copy, Random random,
-                                   const Execution& execution) {
+std::optional<MarkedShape> augmented(const MarkedShape& shape, int32_t copy, Random random,
+                                     const Execution& execution) {
   constexpr int32_t smallest = 100;  // vertices that make a shape still, when some have gone
-  DamagedMesh damaged = undamaged(shape.mesh->surface, shape.marks);
+  CorruptedMesh corrupted = intact(shape.mesh->surface, shape.marks);
   if (copy > 0) {
     std::vector<SurfacePoint> marks;
     for (const auto& mark : shape.marks)
       if (mark) marks.push_back(*mark);
     if (marks.empty()) return std::nullopt;
     const SurfacePoint& centre = marks[random.below(static_cast<uint32_t>(marks.size()))];
-    damaged = cut_ball(std::move(damaged), centre, 0.15 + 0.25 * random.uniform(),
-                       copy == 1 ? CutEnd::open : CutEnd::capped, execution);
+    corrupted = cut_ball(std::move(corrupted), centre, 0.15 + 0.25 * random.uniform(),
+                         copy == 1 ? CutEnd::open : CutEnd::capped, execution);
   } else {
-    damaged = with_holes(with_noise(std::move(damaged), 0.3 * random.uniform(), random), 20, 2, random);
+    corrupted = with_holes(with_noise(std::move(corrupted), 0.3 * random.uniform(), random), 20, 2, random);
   }
   execution.check_cancelled();
-  if (damaged.mesh.vertex_count() < smallest ||
-      damaged.mesh.triangle_count() < shape.mesh->surface.triangle_count() / 3)
+  if (corrupted.mesh.vertex_count() < smallest ||
+      corrupted.mesh.triangle_count() < shape.mesh->surface.triangle_count() / 3)
     return std::nullopt;
   // As the whole shape is: a speck that a hole leaves does not make it a body of many parts.
   const auto analysed = shape.mesh->is_wrapped ? AnalysedSurface::wrapped : AnalysedSurface::as_it_is;
   MarkedShape result{
-      std::make_shared<PreparedMesh>(prepare(std::move(damaged.mesh), {.analysed = analysed}, execution)),
+      std::make_shared<PreparedMesh>(prepare(std::move(corrupted.mesh), {.analysed = analysed}, execution)),
       {}};
-  for (const auto& mark : damaged.marks) {
+  for (const auto& mark : corrupted.marks) {
     result.marks.emplace_back();
     if (!mark) continue;
     if (const SurfacePoint point = to_surface(*result.mesh, *mark); point.triangle >= 0)
@@ -255,11 +255,11 @@ std::optional<MarkedShape> spoiled(const MarkedShape& shape, int32_t copy, Rando
 
 // Places the landmarks of every shape, whole and corrupted, by a model that has not seen it, and learns from the outcome
 // how far to trust.
-Calibration cross_fit(const LandmarkModel& model, const std::vector<Lessons>& shapes,
+Calibration cross_fit(const LandmarkModel& model, const std::vector<TrainingShape>& shapes,
                       const Execution& execution) {
   const auto count = static_cast<int32_t>(shapes.size());
   const int32_t used_folds = std::min(folds, count);
-  std::vector<JudgedPlacement> judged;
+  std::vector<CalibrationSample> samples;
   Random random(model.params.seed, 77);
   const auto order = sample_without_replacement(random, count, count);
   for (int32_t fold = 0; fold < used_folds; ++fold) {
@@ -267,19 +267,20 @@ Calibration cross_fit(const LandmarkModel& model, const std::vector<Lessons>& sh
     LandmarkModel part;
     part.landmark_names = model.landmark_names;
     part.params = model.params;
-    std::vector<const Lessons*> kept;
+    std::vector<const TrainingShape*> kept;
     for (int32_t i = 0; i < count; ++i)
       if (i % used_folds != fold) kept.push_back(&shapes[order[i]]);
     learn_parts(part, kept, execution);
-    for (int32_t i = fold; i < std::min(count, most_judged); i += used_folds) {
-      const Lessons& left_out = shapes[order[i]];
-      int32_t id = (model.params.spoiled_copies + 1) * order[i];
-      judge_shape(part, left_out.whole, id, true, judged, execution);
-      for (const Lesson& copy : left_out.spoiled) judge_shape(part, copy, ++id, false, judged, execution);
+    for (int32_t i = fold; i < std::min(count, max_calibration_shapes); i += used_folds) {
+      const TrainingShape& left_out = shapes[order[i]];
+      int32_t id = (model.params.augmented_copies + 1) * order[i];
+      place_left_out(part, left_out.whole, id, true, samples, execution);
+      for (const TrainingExample& copy : left_out.augmented)
+        place_left_out(part, copy, ++id, false, samples, execution);
       execution.report(static_cast<double>(i + 1) / count);
     }
   }
-  return calibrate(judged, static_cast<int32_t>(model.landmark_names.size()));
+  return calibrate(samples, static_cast<int32_t>(model.landmark_names.size()));
 }
 
 // How users' files stand beside the training shapes': nearly as they do.
@@ -292,24 +293,24 @@ Matrix3 random_frame(Random random) {
       .toRotationMatrix();
 }
 
-Lesson make_lesson(MarkedShape shape, const AnalysisParams& how, const Execution& execution) {
-  Lesson lesson{std::move(shape), {}, {}};
-  lesson.analysis = analyse_surface(lesson.shape.mesh, how, execution);
-  return lesson;
+TrainingExample make_example(MarkedShape shape, const AnalysisParams& how, const Execution& execution) {
+  TrainingExample example{std::move(shape), {}, {}};
+  example.analysis = analyse_surface(example.shape.mesh, how, execution);
+  return example;
 }
 
-std::vector<Lessons> make_lessons(const TrainingSet& set, const TrainParams& params,
-                                  const Execution& execution) {
+std::vector<TrainingShape> make_examples(const TrainingSet& set, const TrainParams& params,
+                                         const Execution& execution) {
   const bool paper = params.preset == Preset::paper;
-  const int32_t copies = paper ? 1 : 1 + params.spoiled_copies;
+  const int32_t copies = paper ? 1 : 1 + params.augmented_copies;
   const auto share =
-      static_cast<int32_t>((params.oriented ? most_oriented_samples : most_samples) /
-                           (set.shapes.size() * (paper ? 1.0 : 1 + 0.4 * params.spoiled_copies)));
-  std::vector<Lessons> shapes(set.shapes.size());
-  std::vector<std::optional<Lesson>> spoiled_lessons(set.shapes.size() * copies);
+      static_cast<int32_t>((params.oriented ? max_oriented_samples : max_samples) /
+                           (set.shapes.size() * (paper ? 1.0 : 1 + 0.4 * params.augmented_copies)));
+  std::vector<TrainingShape> shapes(set.shapes.size());
+  std::vector<std::optional<TrainingExample>> augmented_examples(set.shapes.size() * copies);
   execution.begin_stage("analysis", 0, 0.3);
   std::atomic<int32_t> done{0};
-  parallel_for(execution, static_cast<int64_t>(spoiled_lessons.size()), [&](int64_t i) {
+  parallel_for(execution, static_cast<int64_t>(augmented_examples.size()), [&](int64_t i) {
     const int64_t s = i / copies;
     const auto copy = static_cast<int32_t>(i % copies);
     AnalysisParams how = analysis_params_of(params);
@@ -317,19 +318,19 @@ std::vector<Lessons> make_lessons(const TrainingSet& set, const TrainParams& par
     if (!paper) how.max_samples = std::min(how.max_samples, share);
     how.seed = params.seed, how.stream = static_cast<uint64_t>(s);
     if (copy == 0) {
-      shapes[s].whole = make_lesson(set.shapes[s], how, execution.inner());
-    } else if (auto bad = spoiled(set.shapes[s], static_cast<int32_t>((copy - 1 + s) % 3),
-                                  Random(params.seed, 5000 + i), execution.inner())) {
-      how.max_samples = std::min({how.max_samples, spoiled_samples, 2 * share / 5});
-      spoiled_lessons[i] = make_lesson(*std::move(bad), how, execution.inner());
-      spoiled_lessons[i]->frame = random_frame(Random(params.seed, 15000 + i));
+      shapes[s].whole = make_example(set.shapes[s], how, execution.inner());
+    } else if (auto bad = augmented(set.shapes[s], static_cast<int32_t>((copy - 1 + s) % 3),
+                                    Random(params.seed, 5000 + i), execution.inner())) {
+      how.max_samples = std::min({how.max_samples, augmented_samples, 2 * share / 5});
+      augmented_examples[i] = make_example(*std::move(bad), how, execution.inner());
+      augmented_examples[i]->frame = random_frame(Random(params.seed, 15000 + i));
     }
     if (copy == 0 && set.shapes[s].is_copy)
       shapes[s].whole.frame = random_frame(Random(params.seed, 15000 + i));
-    execution.report(static_cast<double>(++done) / static_cast<double>(spoiled_lessons.size()));
+    execution.report(static_cast<double>(++done) / static_cast<double>(augmented_examples.size()));
   });
-  for (size_t i = 0; i < spoiled_lessons.size(); ++i)
-    if (spoiled_lessons[i]) shapes[i / copies].spoiled.push_back(*std::move(spoiled_lessons[i]));
+  for (size_t i = 0; i < augmented_examples.size(); ++i)
+    if (augmented_examples[i]) shapes[i / copies].augmented.push_back(*std::move(augmented_examples[i]));
   return shapes;
 }
 
@@ -343,13 +344,13 @@ LandmarkModel train(const TrainingSet& set, const TrainParams& params, const Exe
   model.skeleton = set.skeleton;
   model.skeleton_template = set.skeleton_template;
   // Shapes of rigged characters come in other poses and proportions too: copies of copies add little.
-  if (!set.skeleton.empty()) model.params.spoiled_copies = std::min(params.spoiled_copies, 1);
+  if (!set.skeleton.empty()) model.params.augmented_copies = std::min(params.augmented_copies, 1);
   model.params.oriented = params.oriented && !set.skeleton.empty();
   model.shape_count = static_cast<int32_t>(set.shapes.size());
   int64_t vertices = 0;
   for (const auto& shape : set.shapes) vertices += shape.mesh->surface.vertex_count();
   model.mean_vertex_count = static_cast<int32_t>(vertices / model.shape_count);
-  std::vector<Lessons> shapes = make_lessons(set, model.params, execution);
+  std::vector<TrainingShape> shapes = make_examples(set, model.params, execution);
   model.calibration.typical_vote.assign(set.landmark_names.size(), 0);
   if (params.preset == Preset::paper) {
     std::vector<SurfaceAnalysis> analyses;
@@ -360,10 +361,10 @@ LandmarkModel train(const TrainingSet& set, const TrainParams& params, const Exe
   execution.begin_stage("distances", 0.3, 0.35);
   for (auto& shape : shapes) {
     shape.whole.learned = learn_shape(shape.whole.shape, shape.whole.analysis, execution);
-    for (auto& copy : shape.spoiled) copy.learned = learn_shape(copy.shape, copy.analysis, execution);
+    for (auto& copy : shape.augmented) copy.learned = learn_shape(copy.shape, copy.analysis, execution);
   }
   execution.begin_stage("forest", 0.35, 0.6);
-  std::vector<const Lessons*> all;
+  std::vector<const TrainingShape*> all;
   for (const auto& shape : shapes) all.push_back(&shape);
   learn_parts(model, all, execution);
   if (params.learns_confidence) model.calibration = cross_fit(model, shapes, execution);

@@ -1,8 +1,8 @@
 // From marked shapes to a model.
 #pragma once
 #include "base/parallel.h"
-#include "landmarks/landmark_model.h"
-#include "landmarks/training_set.h"
+#include "model/model_info.h"
+#include "model/training_set.h"
 
 namespace focal {
 

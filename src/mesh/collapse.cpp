@@ -15,7 +15,7 @@ std::vector<unsigned> collapse_edges(
     unsigned options) {
   std::vector<unsigned> kept(indices.size());
   // meshoptimizer 0.18 takes at most 94 bytes a vertex, 10 of them for a moment, and 24 an index.
-  const MemoryElsewhere scratch(104 * positions.rows() + 24 * static_cast<int64_t>(indices.size()));
+  const ExternalAllocation scratch(104 * positions.rows() + 24 * static_cast<int64_t>(indices.size()));
   try {
     kept.resize(meshopt_simplify(kept.data(), indices.data(), indices.size(), positions.data(),
                                  positions.rows(), 3 * sizeof(float), 3 * wanted,

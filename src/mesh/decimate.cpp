@@ -126,7 +126,7 @@ Indices simplify_by_slabs(const TriangleMesh& mesh, const Positions& positions, 
 // Collapses leave flaps here and there: two triangles back to back, hung on an edge of the surface, which so has four. Taken away, so
 // that the surface stays manifold. (Sheets that are made of such pairs, as hair is in games, are left as they are.)
 Indices without_flaps(const Indices& indices) {
-  constexpr size_t most_share = 50;  // of all triangles: more are sheets
+  constexpr size_t max_share = 50;  // of all triangles: more are sheets
   std::map<std::array<unsigned, 3>, size_t> seen;
   std::vector<bool> dropped(indices.size() / 3, false);
   size_t flaps = 0;
@@ -138,7 +138,7 @@ Indices without_flaps(const Indices& indices) {
     dropped[t] = dropped[other->second] = true;
     ++flaps;
   }
-  if (flaps * most_share > dropped.size()) return indices;
+  if (flaps * max_share > dropped.size()) return indices;
   Indices kept;
   for (size_t t = 0; t < dropped.size(); ++t)
     if (!dropped[t]) kept.insert(kept.end(), indices.begin() + 3 * t, indices.begin() + 3 * t + 3);

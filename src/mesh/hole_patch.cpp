@@ -14,9 +14,9 @@ namespace focal {
 namespace {
 
 constexpr int32_t largest_polygon =
-    120;                            // longer loops are cut in two first: the triangulation takes n^3 steps
-constexpr size_t most_inner = 300;  // the fairing solves a dense system of so many
-constexpr int max_rounds = 12;      // of refinement; each makes edges shorter by a third
+    120;                           // longer loops are cut in two first: the triangulation takes n^3 steps
+constexpr size_t max_inner = 300;  // the fairing solves a dense system of so many
+constexpr int max_rounds = 12;     // of refinement; each makes edges shorter by a third
 constexpr double stump_alignment = 0.5;  // mean cosine between the surface round a hole and the hole
 
 using Triangle = std::array<int32_t, 3>;
@@ -160,7 +160,7 @@ bool Patch::split_large() {
   bool any = false;
   const size_t count = triangles.size();
   for (size_t t = 0; t < count; ++t) {
-    if (positions.size() - loop.positions.size() >= most_inner) break;
+    if (positions.size() - loop.positions.size() >= max_inner) break;
     const auto [a, b, c] = triangles[t];
     const Vector3 middle = (positions[a] + positions[b] + positions[c]) / 3;
     const double wanted = (density[a] + density[b] + density[c]) / 3;

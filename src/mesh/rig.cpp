@@ -28,7 +28,7 @@ std::vector<Influence> heaviest(std::span<const Influence> influences, size_t mo
 
 VertexInfluences heaviest(std::span<const Influence> influences) {
   VertexInfluences result{};
-  std::ranges::copy(heaviest(influences, most_influences), result.begin());
+  std::ranges::copy(heaviest(influences, max_influences), result.begin());
   return result;
 }
 

@@ -21,13 +21,13 @@ struct Influence {
   float weight = 0;
 };
 // Heaviest first, sum 1, no joint twice; all weights 0: nothing moves the vertex.
-inline constexpr int most_influences = 4;
-using VertexInfluences = std::array<Influence, most_influences>;
+inline constexpr int max_influences = 4;
+using VertexInfluences = std::array<Influence, max_influences>;
 
 struct Rig {
   std::vector<Joint> joints;
   std::vector<VertexInfluences> influences;  // one a vertex
-  // What comes after these where more than most_influences joints may move a vertex: one a vertex, both together have sum 1.
+  // What comes after these where more than max_influences joints may move a vertex: one a vertex, both together have sum 1.
   std::vector<VertexInfluences> more = {};  // empty: nothing does
 };
 

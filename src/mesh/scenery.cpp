@@ -11,9 +11,9 @@
 namespace focal {
 namespace {
 
-constexpr size_t most_candidates = 64, most_samples = 20000;
-constexpr double convex = 0.95;     // share of the area, see ConvexBody
-constexpr int32_t most_rounds = 4;  // each may free the view on more: a ground below a helper far away
+constexpr size_t max_candidates = 64, max_samples = 20000;
+constexpr double convex = 0.95;    // share of the area, see ConvexBody
+constexpr int32_t max_rounds = 4;  // each may free the view on more: a ground below a helper far away
 
 struct Part {
   std::vector<int32_t> triangles;
@@ -38,7 +38,7 @@ class SceneryFinder {
       : surface_(surface), components_(components), pieces_(pieces), parts_(components.count) {
     make_parts(source_triangle);
     const auto n = static_cast<size_t>(surface.vertex_count());
-    for (size_t v = 0; v < n; v += 1 + n / most_samples) samples_.push_back(static_cast<int32_t>(v));
+    for (size_t v = 0; v < n; v += 1 + n / max_samples) samples_.push_back(static_cast<int32_t>(v));
   }
   FoundScenery find();
 
@@ -130,7 +130,7 @@ std::vector<Group> SceneryFinder::candidates() const {
       order.emplace_back(-size, i);
   std::sort(order.begin(), order.end());
   std::vector<Group> largest;
-  for (size_t i = 0; i < std::min(order.size(), most_candidates); ++i)
+  for (size_t i = 0; i < std::min(order.size(), max_candidates); ++i)
     largest.push_back(std::move(result[order[i].second]));
   return largest;
 }
@@ -159,7 +159,7 @@ std::vector<int32_t> SceneryFinder::samples_of_rest(const Mask& group) const {
 
 // Wings and capes are sheets too: what is left out must reach beyond all else, lie on one side of it and be far larger.
 bool SceneryFinder::is_ground_or_backdrop(const Group& group, const FlatSheet& sheet) const {
-  constexpr double covered = 0.97, slack = 0.02, wrong_side = 0.05, least_height = 0.05;
+  constexpr double covered = 0.97, slack = 0.02, wrong_side = 0.05, min_height = 0.05;
   constexpr double larger = 4, ground_larger = 1.5, horizontal = 0.99;
   Box box;
   const std::vector<int32_t> rest = samples_of_rest(mask_of(group));
@@ -181,7 +181,7 @@ bool SceneryFinder::is_ground_or_backdrop(const Group& group, const FlatSheet& s
   const bool lies = std::abs(sheet.normal.y()) > horizontal;
   if (lies && (sheet.normal.y() > 0) != (above > below)) return false;  // over the character, as a hat is
   const double area = polygon_area(convex_outline(std::move(shadow)));
-  return static_cast<double>(inside) >= covered * count && high - low >= least_height * box.diagonal() &&
+  return static_cast<double>(inside) >= covered * count && high - low >= min_height * box.diagonal() &&
          static_cast<double>(std::min(above, below)) <= wrong_side * count &&
          sheet.outline_area >= (lies ? ground_larger : larger) * area;
 }
@@ -221,7 +221,7 @@ bool SceneryFinder::hangs_together(const Group& rest, double size) const {
 }
 
 bool SceneryFinder::encloses_character(const Group& group) const {
-  constexpr double thick = 0.1, most_inside = 0.6, all_inside = 0.99;
+  constexpr double thick = 0.1, max_inside = 0.6, all_inside = 0.99;
   constexpr double same_size = 0.5, larger = 1.2, simple = 0.25, no_body = 0.4;
   const ConvexBody body = convex_body(surface_, triangles_of(group));
   const double size = body.box.diagonal();
@@ -235,7 +235,7 @@ bool SceneryFinder::encloses_character(const Group& group) const {
       samples.begin(), samples.end(), [&](int32_t v) { return body.contains(surface_.positions.row(v)); }));
   const auto count = static_cast<double>(samples.size());
   // Eyes in a round body are small, and they show.
-  const bool is_simple = vertices_of(group) <= simple * vertices_of(rest) && inside >= most_inside * count &&
+  const bool is_simple = vertices_of(group) <= simple * vertices_of(rest) && inside >= max_inside * count &&
                          rest_size >= same_size * size;
   const bool is_around = size >= larger * rest_size && inside >= all_inside * count;
   return (is_simple || is_around) && hangs_together(rest, rest_size) &&
@@ -358,7 +358,7 @@ FoundScenery SceneryFinder::result() const {
 }
 
 FoundScenery SceneryFinder::find() {
-  for (int32_t round = 0; round < most_rounds; ++round) {
+  for (int32_t round = 0; round < max_rounds; ++round) {
     bool changed = find_sheets();
     changed |= find_enclosures();
     changed |= find_apart();

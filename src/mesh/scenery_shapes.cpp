@@ -126,13 +126,13 @@ bool ConvexBody::contains(const Vector3& point) const {
 }
 
 ConvexBody convex_body(const TriangleMesh& mesh, std::span<const int32_t> triangles) {
-  constexpr size_t most_triangles = 300, most_vertices = 5000;
+  constexpr size_t max_triangles = 300, max_vertices = 5000;
   constexpr double slack = 0.01;  // of the diagonal
   ConvexBody body;
   const std::vector<int32_t> vertices = vertices_of(mesh, triangles);
   for (const int32_t v : vertices) body.box.add(Vector3(mesh.positions.row(v)));
   const double tolerance = slack * body.box.diagonal();
-  const size_t every = 1 + triangles.size() / most_triangles, each = 1 + vertices.size() / most_vertices;
+  const size_t every = 1 + triangles.size() / max_triangles, each = 1 + vertices.size() / max_vertices;
   double total = 0, supporting = 0;
   for (size_t i = 0; i < triangles.size(); i += every) {
     const Vector3 along = area_vector(mesh, triangles[i]);

@@ -11,8 +11,8 @@
 namespace focal {
 namespace {
 
-constexpr int32_t rim = 3;          // empty cells round the mesh
-constexpr uint8_t least_votes = 4;  // of six rays
+constexpr int32_t rim = 3;        // empty cells round the mesh
+constexpr uint8_t min_votes = 4;  // of six rays
 
 // Whether p lies left of the line from a to b; computed the same for both triangles at an edge, so that no line passes between
 // them or meets both.
@@ -49,8 +49,7 @@ SolidGrid::SolidGrid(const TriangleMesh& mesh, double cell, const Execution& exe
     lines_[axis] = cast_lines(mesh, static_cast<int>(axis));
     vote(static_cast<int>(axis), votes[axis]);
   });
-  for (int64_t i = 0; i < cell_count(); ++i)
-    solid_[i] = votes[0][i] + votes[1][i] + votes[2][i] >= least_votes;
+  for (int64_t i = 0; i < cell_count(); ++i) solid_[i] = votes[0][i] + votes[1][i] + votes[2][i] >= min_votes;
   execution.check_cancelled();
   fill_enclosed();
   execution.check_cancelled();
@@ -58,7 +57,7 @@ SolidGrid::SolidGrid(const TriangleMesh& mesh, double cell, const Execution& exe
 }
 
 void SolidGrid::choose_grid(const TriangleMesh& mesh) {
-  constexpr double most_cells = 6e6;
+  constexpr double max_cells = 6e6;
   const Vector3 low = mesh.positions.colwise().minCoeff(),
                 extent = mesh.positions.colwise().maxCoeff() - low.transpose();
   double count = 0;
@@ -69,7 +68,7 @@ void SolidGrid::choose_grid(const TriangleMesh& mesh) {
       size_[a] = static_cast<int32_t>(std::ceil(extent[a] / cell_ - 0.01)) + 2 * rim + 1;
       count *= size_[a];
     }
-    if (count <= most_cells) break;
+    if (count <= max_cells) break;
   }
   step_ = {1, size_[0], static_cast<int64_t>(size_[0]) * size_[1]};
   // The lattice is off the planes on which modellers put vertices and edges.

@@ -10,8 +10,8 @@
 namespace focal {
 namespace {
 
-constexpr double nearly_meets = 2e-4;      // of the diagonal: 0.4 mm of a person
-constexpr double least_edges_kept = 0.25;  // of the shortest edge at a vertex
+constexpr double nearly_meets = 2e-4;    // of the diagonal: 0.4 mm of a person
+constexpr double min_edges_kept = 0.25;  // of the shortest edge at a vertex
 
 Vector3 place_of(const MatrixX3& positions, int32_t v) { return positions.row(v).transpose(); }
 
@@ -89,7 +89,7 @@ std::vector<int32_t> stitched_borders(const TriangleMesh& mesh, const EdgeSides&
   for (size_t i = 0; i < border.size(); ++i) {
     const int32_t v = border[i], other = border[first[i]];
     const double distance = (place_of(mesh.positions, v) - place_of(mesh.positions, other)).norm();
-    if (v == other || distance >= least_edges_kept * std::min(shortest[v], shortest[other])) continue;
+    if (v == other || distance >= min_edges_kept * std::min(shortest[v], shortest[other])) continue;
     if (result.empty()) {
       result.resize(static_cast<size_t>(mesh.vertex_count()));
       for (int32_t u = 0; u < mesh.vertex_count(); ++u) result[u] = u;

@@ -70,13 +70,13 @@ int64_t count_loops(const EdgeSides& edges, UnionFind& fans) {
 
 struct Patch {
   bool is_closed = true, is_one_sided = false;
-  int64_t triangles = 0, turned = 0;
+  int64_t triangles = 0, reversed = 0;
   double area = 0, volume = 0;
 
   bool is_turned_over() const {  // as a whole, once its triangles agree
     const double enclosed = is_closed ? volume : 0;
     if (std::abs(enclosed) > negligible_volume * std::pow(area, 1.5)) return enclosed < 0;
-    return 2 * turned > triangles;
+    return 2 * reversed > triangles;
   }
 };
 
@@ -87,7 +87,7 @@ class Orienter {
         edges_(edges),
         twin_(static_cast<size_t>(mesh.triangles.size()), -1),
         patch_of_(mesh.triangle_count(), -1),
-        turned_(mesh.triangle_count(), 0) {
+        reversed_(mesh.triangle_count(), 0) {
     for (int32_t e = 0; e < edges.edge_count(); ++e)
       if (const auto sides = edges.of_edge(e); sides.size() == 2)
         twin_[sides[0]] = sides[1], twin_[sides[1]] = sides[0];
@@ -114,12 +114,12 @@ class Orienter {
         if (twin_[side] < 0) continue;
         const int32_t other = twin_[side] / 3;
         const bool agree = side_from(mesh_.triangles, side) != side_from(mesh_.triangles, twin_[side]);
-        const char turned = agree ? turned_[t] : !turned_[t];
+        const char reversed = agree ? reversed_[t] : !reversed_[t];
         if (patch_of_[other] >= 0) {
-          patch.is_one_sided = patch.is_one_sided || turned_[other] != turned;
+          patch.is_one_sided = patch.is_one_sided || reversed_[other] != reversed;
           continue;
         }
-        patch_of_[other] = number, turned_[other] = turned;
+        patch_of_[other] = number, reversed_[other] = reversed;
         queue.push_back(other);
       }
     }
@@ -129,7 +129,7 @@ class Orienter {
   void find_open_patches() {
     const auto direction = [&](int32_t side) {
       const bool up = side_from(mesh_.triangles, side) < side_to(mesh_.triangles, side);
-      return up != (turned_[side / 3] != 0) ? 1 : -1;
+      return up != (reversed_[side / 3] != 0) ? 1 : -1;
     };
     std::vector<int32_t> sum(patches_.size(), 0);
     for (int32_t e = 0; e < edges_.edge_count(); ++e) {
@@ -148,9 +148,9 @@ class Orienter {
     const auto at = [&](int i) -> Vector3 { return mesh_.positions.row(mesh_.triangles(t, i)); };
     const Vector3 cross = (at(1) - at(0)).cross(at(2) - at(0));
     Patch& patch = patches_[patch_of_[t]];
-    ++patch.triangles, patch.turned += turned_[t];
+    ++patch.triangles, patch.reversed += reversed_[t];
     patch.area += cross.norm() / 2;
-    patch.volume += (turned_[t] ? -1 : 1) * at(0).dot(cross) / 6;
+    patch.volume += (reversed_[t] ? -1 : 1) * at(0).dot(cross) / 6;
   }
 
   Orientation result() {
@@ -162,7 +162,7 @@ class Orienter {
       over.push_back(patch.is_turned_over());
     }
     result.is_consistent = one_sided <= negligible_share * area;
-    result.flipped = std::move(turned_);
+    result.flipped = std::move(reversed_);
     for (int32_t t = 0; t < mesh_.triangle_count(); ++t) {
       const int32_t patch = patch_of_[t];
       result.flipped[t] = !patches_[patch].is_one_sided && result.flipped[t] != over[patch];
@@ -174,7 +174,7 @@ class Orienter {
   const TriangleMesh& mesh_;
   const EdgeSides& edges_;
   std::vector<int32_t> twin_, patch_of_;
-  std::vector<char> turned_;  // against the first triangle of its patch
+  std::vector<char> reversed_;  // against the first triangle of its patch
   std::vector<Patch> patches_;
 };
 

@@ -19,7 +19,7 @@ class Flipper {
  public:
   // twin: the side that each is glued to, or -1.
   Flipper(IntrinsicTriangulation& surface, std::vector<int32_t> twin)
-      : surface_(surface), twin_(std::move(twin)), least_slack_(slack_after * surface.lengths.mean()) {}
+      : surface_(surface), twin_(std::move(twin)), min_slack_(slack_after * surface.lengths.mean()) {}
 
   void run() {
     const auto count = static_cast<int32_t>(twin_.size());
@@ -60,7 +60,7 @@ class Flipper {
     const auto [qx, qy] = place(length(aq), length(qb));
     const double crossing = std::hypot(px - qx, py + qy);
     const double l_bp = length(bp), l_pa = length(pa), l_aq = length(aq), l_qb = length(qb);
-    if (!(slack(l_pa, l_aq, crossing) > least_slack_ && slack(l_bp, l_qb, crossing) > least_slack_)) return;
+    if (!(slack(l_pa, l_aq, crossing) > min_slack_ && slack(l_bp, l_qb, crossing) > min_slack_)) return;
     const auto& corner = surface_.triangles;
     const int32_t p = corner(t, side % 3), q = corner(u, other % 3);
     const int32_t a = corner(t, bp % 3), b = corner(t, pa % 3);
@@ -92,7 +92,7 @@ class Flipper {
 
   IntrinsicTriangulation& surface_;
   std::vector<int32_t> twin_, queue_;
-  double least_slack_;
+  double min_slack_;
   std::vector<char> queued_;
 };
 

@@ -34,7 +34,7 @@ TriangleMeasure measure_corners(const TriangleMesh& mesh, int32_t t, double smal
   return result;
 }
 
-constexpr double least_mass_by_stiffness =
+constexpr double min_mass_by_stiffness =
     1e-10;  // mass, of area, over the diagonal of L: far below what shapes have
 
 struct WeightedEdge {
@@ -108,7 +108,7 @@ Operators make_operators(const TriangleMesh& mesh, std::span<const std::pair<int
   result.mass = result.mass.cwiseMax(1e-9 * result.area / n);  // a vertex of slivers only still has some mass
   result.L = laplacian_of(edges, n);
   // Nor is any mass so small beside its stiffness that the eigenvalues span more than double precision can hold.
-  result.mass = result.mass.cwiseMax(least_mass_by_stiffness * result.area * result.L.diagonal());
+  result.mass = result.mass.cwiseMax(min_mass_by_stiffness * result.area * result.L.diagonal());
   return result;
 }
 

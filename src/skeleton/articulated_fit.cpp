@@ -15,19 +15,19 @@ namespace focal {
 namespace {
 
 // Lengths are in units of sqrt(area). Chosen on left-out characters of packs and of the generator.
-constexpr double least_share = 0.006;  // of the area: parts below that do not move on their own
-constexpr double no_share = 1e-4;      // likewise, of a joint by itself: a control, which nothing holds
+constexpr double min_share = 0.006;  // of the area: parts below that do not move on their own
+constexpr double no_share = 1e-4;    // likewise, of a joint by itself: a control, which nothing holds
 constexpr size_t most_moving = 40, normal_points = 10;
 constexpr Eigen::Index coarse_stride = 4, target_samples = 1000;  // of the points, of the target's
 constexpr double target_weight = 0.5;   // of the way back, from the target to the shape
 constexpr double point_weight = 0.1;    // of a distance along the surface beside one across it
 constexpr double normal_cost = 0.0245;  // of two normals at a right angle
 constexpr double pose_cost = 0.02;      // of joints bent by a right angle from the bind pose
-constexpr double least_facing = 0.05;   // pairs that face away from each other still count a little
+constexpr double min_facing = 0.05;     // pairs that face away from each other still count a little
 // Distances beyond which a pair counts little, at first and at last, and an image of a map.
 constexpr double loose = 0.17, tight = 0.045, map_outlier = 0.12;
-constexpr double most_bend = 1.8;                     // beyond, a joint starts as the bind pose has it
-constexpr double most_angle = 0.3, most_scale = 0.2;  // a round
+constexpr double max_bend = 1.8;                    // beyond, a joint starts as the bind pose has it
+constexpr double max_angle = 0.3, max_scale = 0.2;  // a round
 // Of all bones together, beside distances whose weights sum to 1 or so.
 constexpr double bone_weight = 3;        // a joint lies where the bone that leads to it ends
 constexpr double angle_weight = 5e-3;    // turns of a round, and what neighbours turn beside each other
@@ -48,7 +48,7 @@ Matrix3 cross_matrix(const Vector3& v) {
 }
 
 Matrix3 turn_by(const Vector3& turn) {
-  return Eigen::AngleAxisd(std::min(turn.norm(), most_angle), turn.stableNormalized()).toRotationMatrix();
+  return Eigen::AngleAxisd(std::min(turn.norm(), max_angle), turn.stableNormalized()).toRotationMatrix();
 }
 
 // Between a joint and the one that it hangs on, in world coordinates: axis times angle.
@@ -97,7 +97,7 @@ struct ArticulatedFit::System {
   Vector gradient;
 };
 
-ArticulatedFit::ArticulatedFit(const std::vector<SkeletonJoint>& skeleton, const AtlasShape& shape,
+ArticulatedFit::ArticulatedFit(const std::vector<SkeletonJoint>& skeleton, const Exemplar& shape,
                                const std::vector<int32_t>& counterpart, const FitTarget& target)
     : skeleton_(skeleton),
       shape_(shape),
@@ -117,7 +117,7 @@ void ArticulatedFit::choose_moving() {
     for (const Influence& one : shape_.rig->influences[i]) own[one.joint] += one.weight * weight_[i];
   std::vector<double> sorted(share.begin(), share.end());
   std::sort(sorted.rbegin(), sorted.rend());
-  const double least = sorted.size() > most_moving ? std::max(least_share, sorted[most_moving]) : least_share;
+  const double least = sorted.size() > most_moving ? std::max(min_share, sorted[most_moving]) : min_share;
   std::vector<Vector3> children(skeleton_.size(), Vector3::Zero());
   for (size_t j = 0; j < skeleton_.size(); ++j) {
     const int32_t above = skeleton_[j].parent < 0 ? -1 : slot_[skeleton_[j].parent];
@@ -133,9 +133,9 @@ void ArticulatedFit::choose_moving() {
   if (moving_.empty())
     throw Error(Status::invalid_argument, "a training character's rig moves nothing", "learn the model anew");
   for (const int32_t j : moving_) {
-    constexpr double least_length = 0.02;
+    constexpr double min_length = 0.02;
     const Vector3 to_tip = shape_.rig->tip[j] - bind_place(j);
-    const Vector3& bone = children[j].norm() > least_length ? children[j] : to_tip;
+    const Vector3& bone = children[j].norm() > min_length ? children[j] : to_tip;
     if (bone.norm() > 1e-6) axis_[j] = bone.normalized();
   }
 }
@@ -232,7 +232,7 @@ double ArticulatedFit::for_each_pair(const MatrixX3& points, const MatrixX3& nor
   const auto meet = [&](Eigen::Index point, Eigen::Index vertex, double weight) {
     const Vector3 gap = points.row(point) - target_.positions.row(vertex);
     const double facing = normals.row(point).dot(target_.normals.row(vertex));
-    pair(point, vertex, gap, weight * std::max(facing, least_facing));
+    pair(point, vertex, gap, weight * std::max(facing, min_facing));
     return gap.norm() + normal_cost * (1 - facing);
   };
   double all = 0;
@@ -320,7 +320,7 @@ void ArticulatedFit::unbend(Posture& posture) const {
     if (const int32_t above = parent_[slot]; above >= 0) {
       Matrix3& turn = posture.turn[moving_[slot]];
       const Matrix3& at = posture.turn[moving_[above]];
-      if (bend_of(turn, at).norm() > most_bend) turn = at;
+      if (bend_of(turn, at).norm() > max_bend) turn = at;
     }
 }
 
@@ -330,8 +330,8 @@ void ArticulatedFit::move(const Vector& step, Posture& posture) const {
     const auto own = step.segment<unknowns>(unknowns * static_cast<Eigen::Index>(slot));
     posture.place[j] += own.head<3>();
     posture.turn[j] = turn_by(own.segment<3>(3)) * posture.turn[j];
-    posture.length[j] += std::clamp(own[6], -most_scale, most_scale);
-    posture.girth[j] += std::clamp(own[7], -most_scale, most_scale);
+    posture.length[j] += std::clamp(own[6], -max_scale, max_scale);
+    posture.girth[j] += std::clamp(own[7], -max_scale, max_scale);
   }
 }
 

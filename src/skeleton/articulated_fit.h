@@ -5,9 +5,9 @@
 #pragma once
 #include <vector>
 
-#include "landmarks/model_parts.h"
 #include "mesh/nearest_vertex.h"
 #include "mesh/triangle_mesh.h"
+#include "model/landmark_model.h"
 
 namespace focal {
 
@@ -36,7 +36,7 @@ struct FitRounds {
 class ArticulatedFit {
  public:
   // counterpart: per joint the one on the other side, or -1. shape has a rig. Keeps references to all three.
-  ArticulatedFit(const std::vector<SkeletonJoint>& skeleton, const AtlasShape& shape,
+  ArticulatedFit(const std::vector<SkeletonJoint>& skeleton, const Exemplar& shape,
                  const std::vector<int32_t>& counterpart, const FitTarget& target);
 
   // images: a vertex of the target a point, or empty.
@@ -75,7 +75,7 @@ class ArticulatedFit {
                        Pair&& pair) const;
 
   const std::vector<SkeletonJoint>& skeleton_;
-  const AtlasShape& shape_;
+  const Exemplar& shape_;
   const std::vector<int32_t>& counterpart_;
   const FitTarget& target_;
   Vector weight_;                // of the points, sum 1

@@ -13,7 +13,7 @@ namespace focal {
 namespace {
 
 // Chosen on left-out characters of packs and of the generator.
-constexpr size_t most_from_maps = 6, most_reversed = 4, most_laid_over = 8, most_kept_over = 4;  // fits
+constexpr size_t max_from_maps = 6, max_reversed = 4, max_laid_over = 8, max_kept_over = 4;  // fits
 constexpr double sure_bulge = 0.25;         // maps whose surfaces bulge that much alike face the right way,
 constexpr double sure_residual = 0.07;      // where a fit from them ends that near to the body
 constexpr double reversing_margin = 0.035;  // fits that face the other way must be so much better
@@ -38,7 +38,7 @@ class Fitting {
         start_(start),
         execution_(execution),
         target_(detection.analysis->surface()),
-        fits_(model_.atlas.size()) {
+        fits_(model_.exemplars.size()) {
     std::vector<Joint> joints;
     for (const SkeletonJoint& joint : start.joints) joints.push_back({joint.name, joint.parent});
     counterpart_ = other_sides(joints);
@@ -71,7 +71,7 @@ class Fitting {
     for (const ShapeMap& one : maps) order.push_back(&one);
     std::stable_sort(order.begin(), order.end(),
                      [](const ShapeMap* a, const ShapeMap* b) { return a->map.residual < b->map.residual; });
-    order.resize(std::min(order.size(), most_from_maps));
+    order.resize(std::min(order.size(), max_from_maps));
     std::vector<Start> starts;
     for (const ShapeMap* one : order) starts.push_back({one->shape, as_placed(one->shape), &one->map.image});
     return starts;
@@ -79,7 +79,7 @@ class Fitting {
 
   // What was taken for the left side is the right one.
   std::vector<Start> reversed(std::vector<FittedShape> fits) const {
-    keep_best(fits, most_reversed);
+    keep_best(fits, max_reversed);
     const Matrix3 about_up = Eigen::AngleAxisd(EIGEN_PI, Vector3::UnitY()).toRotationMatrix();
     std::vector<Start> starts;
     for (const FittedShape& one : fits) {
@@ -127,14 +127,14 @@ class Fitting {
     if (either_way) frames.push_back(about_up * detection_.frame);
     for (const Matrix3& frame : frames) {
       std::vector<int32_t> shapes =
-          lay_shapes_over(model_, analysis, frame, most_laid_over, 0, execution_).exemplars;
-      std::erase_if(shapes, [&](int32_t shape) { return !model_.atlas[shape].rig; });
+          lay_shapes_over(model_, analysis, frame, max_laid_over, 0, execution_).exemplars;
+      std::erase_if(shapes, [&](int32_t shape) { return !model_.exemplars[shape].rig; });
       make_fits(shapes);
       for (const int32_t shape : shapes) starts.push_back({shape, as_it_stands(shape, frame)});
     }
     std::vector<FittedShape> fits;
     add(starts, glance, fits);
-    keep_best(fits, most_kept_over);
+    keep_best(fits, max_kept_over);
     starts.clear();
     for (const FittedShape& one : fits) starts.push_back({one.shape, one.posture});
     return starts;
@@ -157,7 +157,7 @@ class Fitting {
     const ArticulatedFit& fit = *fits_[one.shape];
     one.points = fit.points(one.posture);
     for (size_t j = 0; j < start_.place.size(); ++j)
-      one.tip.push_back(fit.has(j) ? fit.carried(one.posture, j, model_.atlas[one.shape].rig->tip[j])
+      one.tip.push_back(fit.has(j) ? fit.carried(one.posture, j, model_.exemplars[one.shape].rig->tip[j])
                                    : start_.tip[j]);
   }
 
@@ -220,7 +220,7 @@ class Fitting {
     std::erase_if(shapes, [&](int32_t shape) { return fits_[shape] != nullptr; });
     parallel_for(execution_, static_cast<int64_t>(shapes.size()), [&](int64_t i) {
       const int32_t s = shapes[i];
-      fits_[s] = std::make_unique<ArticulatedFit>(start_.joints, model_.atlas[s], counterpart_, target_);
+      fits_[s] = std::make_unique<ArticulatedFit>(start_.joints, model_.exemplars[s], counterpart_, target_);
     });
   }
 
@@ -232,7 +232,7 @@ class Fitting {
 
   // The joints as the maps agree on them.
   Posture as_placed(int32_t shape) const {
-    const ShapeRig& rig = *model_.atlas[shape].rig;
+    const ShapeRig& rig = *model_.exemplars[shape].rig;
     Posture result = unmoved();
     double sum = 0;
     int32_t count = 0;
@@ -243,8 +243,8 @@ class Fitting {
       if (p < 0 || !rig.bind[p]) continue;
       const double to = (start_.place[j] - start_.place[p]).norm();
       const double from = (rig.bind[j]->topRightCorner<3, 1>() - rig.bind[p]->topRightCorner<3, 1>()).norm();
-      constexpr double least_length = 1e-3;
-      if (to > least_length && from > least_length) sum += std::log(to / from), ++count;
+      constexpr double min_length = 1e-3;
+      if (to > min_length && from > min_length) sum += std::log(to / from), ++count;
     }
     const double size = std::clamp(sum / std::max(count, 1), -0.5, 0.5);
     result.length.setConstant(size), result.girth.setConstant(size / 2);
@@ -252,7 +252,7 @@ class Fitting {
   }
 
   Posture as_it_stands(int32_t shape, const Matrix3& frame) const {
-    const AtlasShape& of = model_.atlas[shape];
+    const Exemplar& of = model_.exemplars[shape];
     const ArticulatedFit& fit = *fits_[shape];
     const Vector weight = of.samples.weight.head(of.positions.rows()).cast<double>();
     const Extents own = extents_of(of.positions, weight);
@@ -278,7 +278,7 @@ class Fitting {
   const Execution& execution_;
   FitTarget target_;
   std::vector<int32_t> counterpart_;
-  std::vector<std::unique_ptr<const ArticulatedFit>> fits_;  // per shape of the atlas, those made so far
+  std::vector<std::unique_ptr<const ArticulatedFit>> fits_;  // per shape of the exemplars, those made so far
 };
 
 double apart(const std::vector<Vector3>& a, const std::vector<Vector3>& b) {
@@ -347,8 +347,8 @@ BodyFit fit_to_body(const Detection& detection, const std::vector<ShapeMap>& map
     sum += one.share;
   }
   result.start_share = start_weight * sum * agreement_of(start.place, best.posture.place);
-  constexpr double least_share = 1e-3;
-  std::erase_if(result.shapes, [](const FittedShape& one) { return one.share < least_share; });
+  constexpr double min_share = 1e-3;
+  std::erase_if(result.shapes, [](const FittedShape& one) { return one.share < min_share; });
   for (FittedShape& one : result.shapes) fitting.finish(one);
   return result;
 }
@@ -360,7 +360,7 @@ std::vector<ShapeMap> maps_of_fits(const BodyFit& fit, const LandmarkModel& mode
   std::vector<ShapeMap> result(fit.shapes.size());
   parallel_for(execution, static_cast<int64_t>(result.size()), [&](int64_t m) {
     const FittedShape& one = fit.shapes[m];
-    const SpectralSamples& samples = model.atlas[one.shape].samples;
+    const SpectralSamples& samples = model.exemplars[one.shape].samples;
     const Eigen::Index points = one.points.rows();
     const Eigen::Index k =
         std::min({functions, analysis.eigenfunctions.cols(), static_cast<Eigen::Index>(samples.Phi.cols())});

@@ -12,7 +12,7 @@
 namespace focal {
 
 struct FittedShape {
-  int32_t shape = 0;    // of the atlas
+  int32_t shape = 0;    // of the exemplars
   double residual = 0;  // see ArticulatedFit
   double share = 1;     // how much it counts beside the others, 0..1
   Posture posture;      // in the coordinates of the analysed surface

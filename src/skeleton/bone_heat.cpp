@@ -10,7 +10,7 @@ namespace focal {
 namespace {
 
 constexpr double heat_of_hidden = 1e-4;  // of what a bone gives that is seen: only where none is
-constexpr double least_distance = 1e-3;  // of sqrt(area): a bone in the skin
+constexpr double min_distance = 1e-3;    // of sqrt(area): a bone in the skin
 constexpr double same_distance = 1.02;   // bones about as near share a vertex
 
 Vector3 nearest_on(const Bone& bone, const Vector3& p) {
@@ -44,7 +44,7 @@ Source source_of(const RayCaster& rays, const Vector3& vertex, const Vector3& no
   std::sort(near.begin(), near.end(), [](const auto& a, const auto& b) { return a.distance < b.distance; });
   // The nearest that is seen; bones behind twice the distance of the nearest one are other limbs'.
   const auto seen = std::find_if(near.begin(), near.end(), [&](const Candidate& one) {
-    return one.distance < 2 * near[0].distance + least_distance &&
+    return one.distance < 2 * near[0].distance + min_distance &&
            sees(rays, vertex, normal, nearest_on(*one.bone, vertex));
   });
   const double strength = hottest * (seen == near.end() ? heat_of_hidden : 1);
@@ -55,7 +55,7 @@ Source source_of(const RayCaster& rays, const Vector3& vertex, const Vector3& no
     if (std::find(source.joints.begin(), source.joints.end(), one.bone->joint) == source.joints.end())
       source.joints.push_back(one.bone->joint);
   }
-  const double distance = std::max(nearest, least_distance);
+  const double distance = std::max(nearest, min_distance);
   source.heat = strength / (distance * distance);
   return source;
 }

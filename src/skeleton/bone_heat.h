@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "landmarks/surface_analysis.h"
+#include "analysis/surface_analysis.h"
 #include "mesh/ray_caster.h"
 
 namespace focal {

@@ -7,7 +7,7 @@
 namespace focal {
 namespace {
 
-constexpr float least_weight = 0.02f;  // lighter influences are dropped
+constexpr float min_weight = 0.02f;  // lighter influences are dropped
 
 }  // namespace
 
@@ -42,7 +42,7 @@ ToCaller::ToCaller(const SurfaceAnalysis& analysis) {
 
 void clear_influences(size_t vertices, int32_t most, Rig& rig) {
   rig.influences.assign(vertices, {});
-  rig.more.assign(most > most_influences ? vertices : 0, {});
+  rig.more.assign(most > max_influences ? vertices : 0, {});
 }
 
 void put_influences(const Eigen::Ref<const Eigen::RowVectorXf>& weights, int32_t most, size_t vertex,
@@ -50,7 +50,7 @@ void put_influences(const Eigen::Ref<const Eigen::RowVectorXf>& weights, int32_t
   std::vector<Influence> influences;
   const float total = weights.sum();
   for (Eigen::Index j = 0; j < weights.size(); ++j)
-    if (weights[j] > least_weight * total) influences.push_back({static_cast<int32_t>(j), weights[j]});
+    if (weights[j] > min_weight * total) influences.push_back({static_cast<int32_t>(j), weights[j]});
   put_influences(heaviest(influences, static_cast<size_t>(most)), vertex, rig);
 }
 
@@ -65,7 +65,7 @@ void put_influences(const std::vector<Influence>& influences, size_t vertex, Rig
   rig.influences[vertex] = {};
   if (!rig.more.empty()) rig.more[vertex] = {};
   for (size_t i = 0; i < influences.size(); ++i)
-    (i < most_influences ? rig.influences : rig.more)[vertex][i % most_influences] = influences[i];
+    (i < max_influences ? rig.influences : rig.more)[vertex][i % max_influences] = influences[i];
 }
 
 void put_influences_on_source(const RowMatrixf& weights, const SurfaceAnalysis& analysis, int32_t most,

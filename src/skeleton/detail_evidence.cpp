@@ -4,13 +4,13 @@
 #include <cmath>
 #include <limits>
 
-#include "landmarks/model_parts.h"
 #include "mesh/nearest_vertex.h"
+#include "model/landmark_model.h"
 
 namespace focal {
 namespace {
 
-constexpr double least_length = 1e-6;
+constexpr double min_length = 1e-6;
 
 // From where bones branch to the joint whose part ends the limb.
 struct Chain {
@@ -43,21 +43,21 @@ double median(std::vector<double>& values) {
 
 // Per chain the least ratio to another one; infinite: unknown.
 template <class Distance, class Length>
-std::vector<double> least_ratios(const std::vector<Chain>& chains, const Distance& distance,
-                                 const Length& length) {
+std::vector<double> min_ratios(const std::vector<Chain>& chains, const Distance& distance,
+                               const Length& length) {
   std::vector<double> result(chains.size(), std::numeric_limits<double>::infinity());
   for (size_t a = 0; a < chains.size(); ++a)
     for (size_t b = 0; b < chains.size(); ++b) {
       const double both = length(chains[a]) + length(chains[b]),
                    apart = a == b ? -1 : distance(chains[a], chains[b]);
-      if (apart >= 0 && both > least_length) result[a] = std::min(result[a], apart / both);
+      if (apart >= 0 && both > min_length) result[a] = std::min(result[a], apart / both);
     }
   return result;
 }
 
-std::vector<double> ratios_of_shape(const AtlasShape& shape, const std::vector<Chain>& chains) {
+std::vector<double> ratios_of_shape(const Exemplar& shape, const std::vector<Chain>& chains) {
   const ShapeRig& rig = *shape.rig;
-  return least_ratios(
+  return min_ratios(
       chains,
       [&](const Chain& a, const Chain& b) {
         return shape.marked[a.tip] && shape.marked[b.tip] ? double{shape.constellation.distance(a.tip, b.tip)}
@@ -72,7 +72,7 @@ std::vector<double> ratios_of_shape(const AtlasShape& shape, const std::vector<C
 // Per chain the median over the training shapes; 0: none has it.
 std::vector<double> taught_ratios(const LandmarkModel& model, const std::vector<Chain>& chains) {
   std::vector<std::vector<double>> all(chains.size());
-  for (const AtlasShape& shape : model.atlas) {
+  for (const Exemplar& shape : model.exemplars) {
     if (!shape.rig || shape.constellation.distance.size() == 0) continue;
     const std::vector<double> ratios = ratios_of_shape(shape, chains);
     for (size_t c = 0; c < chains.size(); ++c)
@@ -102,7 +102,7 @@ std::vector<double> found_ratios(const Detection& part, const CharacterRig& rig,
     vertex.push_back(search.nearest((end_of(chain, rig) - to_caller.offset) / to_caller.scale).first);
   const RowMatrixf fields = analysis.metric->distances(vertex, Execution().inner());
   const auto number = [&](const Chain& chain) { return &chain - chains.data(); };
-  return least_ratios(
+  return min_ratios(
       chains, [&](const Chain& a, const Chain& b) { return double{fields(number(a), vertex[number(b)])}; },
       [&](const Chain& chain) {
         const Vector3 begin = rig.rig.joints[chain.begin].bind.topRightCorner<3, 1>();
@@ -131,7 +131,7 @@ double bone_strain(const std::vector<Vector3>& reference, const CharacterRig& ri
     const double found =
         (rig.rig.joints[j].bind.topRightCorner<3, 1>() - rig.rig.joints[p].bind.topRightCorner<3, 1>())
             .norm();
-    sum += std::abs(std::log(std::max(found, least_length) / std::max(taught, least_length))), ++count;
+    sum += std::abs(std::log(std::max(found, min_length) / std::max(taught, min_length))), ++count;
   }
   return count > 0 ? sum / count : 0;
 }

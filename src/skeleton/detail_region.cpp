@@ -10,7 +10,7 @@
 namespace focal {
 namespace {
 
-constexpr int32_t least_joints = 4;  // beyond the root; fewer are as well found on the whole body
+constexpr int32_t min_joints = 4;  // beyond the root; fewer are as well found on the whole body
 constexpr double longest_bone =
     0.075;  // median beyond the root, of sqrt(area): four edges of a proxy of 3,500 vertices
 constexpr double part_weight = 0.5;  // a vertex with less from the part's joints belongs to another limb
@@ -121,8 +121,7 @@ std::vector<int32_t> detail_joints(const std::vector<SkeletonJoint>& skeleton,
     if (!has_detail[j] && children[j] >= 2) {
       const std::vector<char> is_below = at_or_below(skeleton, j);
       const double length = bone_length(skeleton, is_below, j, characters);
-      if (std::count(is_below.begin(), is_below.end(), 1) > least_joints && length > 0 &&
-          length < longest_bone)
+      if (std::count(is_below.begin(), is_below.end(), 1) > min_joints && length > 0 && length < longest_bone)
         result.push_back(j), has_detail[j] = 1;
     }
     if (p >= 0) has_detail[p] |= has_detail[j];

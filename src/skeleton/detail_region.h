@@ -3,8 +3,8 @@
 #pragma once
 #include <vector>
 
-#include "landmarks/training_set.h"
 #include "mesh/similarity.h"
+#include "model/training_set.h"
 
 namespace focal {
 

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "base/error.h"
-#include "landmarks/model_parts.h"
+#include "model/landmark_model.h"
 #include "skeleton/detail_evidence.h"
 #include "skeleton/detail_region.h"
 #include "skeleton/rig_transfer.h"
@@ -66,10 +66,9 @@ Similarity frame_of_limb(const DetailModel& detail, const CharacterRig& rig, con
   if (limb < detail.joints.size())
     frame.scale = (place(detail.joint) - place(detail.joints[limb])).norm() /
                   std::max((detail.reference[root] - detail.reference[limb]).norm(), 1e-6);
-  const auto taught =
-      std::find_if(detail.model->atlas.begin(), detail.model->atlas.end(),
-                   [&](const AtlasShape& shape) { return shape.rig && shape.rig->bind[root]; });
-  if (taught != detail.model->atlas.end())
+  const auto taught = std::find_if(detail.model->exemplars.begin(), detail.model->exemplars.end(),
+                                   [&](const Exemplar& shape) { return shape.rig && shape.rig->bind[root]; });
+  if (taught != detail.model->exemplars.end())
     frame.rotation = joints[detail.joint].bind.topLeftCorner<3, 3>() *
                      taught->rig->bind[root]->topLeftCorner<3, 3>().transpose();
   frame.offset = place(detail.joint) - frame.scale * frame.rotation * detail.reference[root];

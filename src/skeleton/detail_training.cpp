@@ -11,7 +11,7 @@ namespace focal {
 namespace {
 
 // Of a part: more add little to what a hand looks like, but much to the file.
-constexpr size_t most_teachers = 10;
+constexpr size_t max_teachers = 10;
 constexpr int32_t fewest_shapes = 12;
 constexpr int32_t landmarks = 24;
 // Beyond the root's end of the part, in its frame: enough of the limb below to see where the part begins.
@@ -22,7 +22,7 @@ TrainParams params_of_part(uint64_t seed) {
   params.eigenpair_count = 64;
   params.tree_count = 12;
   params.proxy_vertices = 1000;
-  params.spoiled_copies = 0;
+  params.augmented_copies = 0;
   params.learns_confidence = false;
   params.finds_heading = false;
   params.max_samples_per_shape = 400;
@@ -181,7 +181,7 @@ std::vector<DetailModel> learn_details(const std::vector<RiggedMesh>& given,
     const std::vector<Vector3> reference = mean_places(part);
     detail.start = start_of(part, skeleton, reference);
     std::vector<RiggedMesh> parts;
-    const size_t used = std::min(part.teachers.size(), most_teachers);
+    const size_t used = std::min(part.teachers.size(), max_teachers);
     for (size_t i = 0; i < used; ++i)
       parts.push_back(
           cut_out(part, i * part.teachers.size() / used, skeleton, reference, detail.start, execution));

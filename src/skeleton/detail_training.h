@@ -1,6 +1,6 @@
 // What a model learns of the parts that are analysed once more by themselves; see detail_region.h.
 #pragma once
-#include "landmarks/model_parts.h"
+#include "model/landmark_model.h"
 #include "skeleton/rigged_shapes.h"
 
 namespace focal {

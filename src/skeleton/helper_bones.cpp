@@ -16,7 +16,7 @@ void keep(const std::vector<size_t>& kept, std::vector<T>& all) {
 }
 
 void move_to(const std::vector<int32_t>& heir, Rig& rig) {
-  const size_t most = rig.more.empty() ? most_influences : 2 * most_influences;
+  const size_t most = rig.more.empty() ? max_influences : 2 * max_influences;
   for (size_t v = 0; v < rig.influences.size(); ++v) {
     std::vector<Influence> all = influences_of(rig, v);
     if (all.empty()) continue;

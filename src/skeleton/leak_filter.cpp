@@ -5,14 +5,14 @@
 #include <limits>
 #include <queue>
 
-#include "landmarks/model_parts.h"
+#include "model/landmark_model.h"
 
 namespace focal {
 namespace {
 
 constexpr float moves = 0.05F;         // what weighs less does not say how far a joint reaches
 constexpr double room = 1.25;          // bodies are stouter than those that teach
-constexpr double least_reach = 0.03;   // of sqrt(area)
+constexpr double min_reach = 0.03;     // of sqrt(area)
 constexpr double small_island = 0.15;  // of the largest part where a joint is the main one
 constexpr double fade = 0.6;  // of a bone's length: how far a joint reaches along the surface beyond its core
 
@@ -102,7 +102,7 @@ void drop_far_along_surface(RowMatrixf& weights, const SurfaceAnalysis& analysis
   const std::vector<int32_t> main = main_joints(weights);
   const std::vector<float> length = bone_lengths(skeleton);
   for (Eigen::Index j = 0; j < weights.cols(); ++j) {
-    const auto most = static_cast<float>(std::max(fade * length[j], least_reach));
+    const auto most = static_cast<float>(std::max(fade * length[j], min_reach));
     const auto way = ways_from_core(main, static_cast<int32_t>(j), most, analysis);
     for (Eigen::Index v = 0; v < weights.rows(); ++v)
       if (way[v] > most) weights(v, j) = 0;
@@ -126,13 +126,13 @@ WeightHabits habits_of(const Teachers& teachers, const PlacedSkeleton& skeleton,
   const auto joints = static_cast<Eigen::Index>(skeleton.joints.size());
   WeightHabits habits{std::vector<float>(skeleton.joints.size(), 0), RowMatrixf::Identity(joints, joints)};
   for (size_t m = 0; m < posed.size(); ++m) {
-    const ShapeRig& rig = *teachers.model.atlas[teachers.maps[m].shape].rig;
+    const ShapeRig& rig = *teachers.model.exemplars[teachers.maps[m].shape].rig;
     const RowMatrixf distance = bone_distances(skeleton, posed[m]);
     for (size_t i = 0; i < rig.influences.size(); ++i)
       for (const Influence& a : rig.influences[i]) {
         if (a.weight < moves) continue;
         const float away = distance(static_cast<Eigen::Index>(i), a.joint);
-        const auto reach = static_cast<float>(std::max(room * away, least_reach));
+        const auto reach = static_cast<float>(std::max(room * away, min_reach));
         habits.reach[a.joint] = std::max(habits.reach[a.joint], reach);
         for (const Influence& b : rig.influences[i])
           if (b.weight >= moves) habits.together(a.joint, b.joint) = 1;

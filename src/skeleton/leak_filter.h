@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "landmarks/surface_analysis.h"
+#include "analysis/surface_analysis.h"
 #include "skeleton/taught_weights.h"
 
 namespace focal {

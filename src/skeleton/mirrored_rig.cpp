@@ -12,10 +12,10 @@ namespace focal {
 namespace {
 
 constexpr double same_place = 5e-4;  // of the mesh's diagonal
-constexpr double least_share = 0.5;  // of the vertices that have a partner
+constexpr double min_share = 0.5;    // of the vertices that have a partner
 constexpr double middle_reach =
     0.03;  // of the diagonal: joints without a side that lie nearer to the plane come into it
-constexpr size_t most_searched = 20000;  // vertices that settle the plane
+constexpr size_t max_searched = 20000;  // vertices that settle the plane
 
 Vector3 place_in(const Matrix4& frame) { return frame.topRightCorner<3, 1>(); }
 
@@ -67,7 +67,7 @@ std::vector<int32_t> first_at_same_place(const MatrixX3& positions) {
 // The planes between points and what lies nearest to their images approach the one that mirrors them onto each other.
 MirrorPlane settled(const MatrixX3& positions, const NearestVertex& near, MirrorPlane plane, double size) {
   const auto count = static_cast<size_t>(positions.rows());
-  const size_t step = std::max<size_t>(1, count / most_searched);
+  const size_t step = std::max<size_t>(1, count / max_searched);
   double reach = 0.05 * size;
   for (int round = 0; round < 12; ++round, reach = std::max(reach / 2, same_place * size)) {
     std::vector<std::pair<Vector3, Vector3>> pairs;
@@ -152,7 +152,7 @@ class MirroredWeights {
         first_(first_at_same_place(positions)),
         made_(first_.size()),
         is_made_(first_.size(), 0) {
-    most_ = static_cast<size_t>(rig.more.empty() ? most_influences : 2 * most_influences);
+    most_ = static_cast<size_t>(rig.more.empty() ? max_influences : 2 * max_influences);
     std::vector<std::vector<Influence>> at(first_.size());
     for (size_t v = 0; v < first_.size(); ++v)
       for (const Influence& one : influences_of(rig, v)) at[first_[v]].push_back(one);
@@ -197,7 +197,7 @@ class MirroredWeights {
 
   const std::vector<int32_t>& other_;
   const std::vector<int32_t> first_;
-  size_t most_ = most_influences;
+  size_t most_ = max_influences;
   std::vector<std::vector<Influence>> made_;  // at each place that has a partner
   std::vector<char> is_made_;
 };
@@ -270,7 +270,7 @@ MirroredVertices mirrored_vertices(const MatrixX3& positions, const MirrorPlane&
     MirroredVertices plain = partners(positions, tree, snapped(plane, size), same_place * size);
     if (plain.share >= 0.99 * found.share) found = std::move(plain);
     if (found.share > best.share) best = std::move(found);
-    if (best.share >= least_share) break;
+    if (best.share >= min_share) break;
   }
   return best;
 }
@@ -281,7 +281,7 @@ void make_symmetric(const TriangleMesh& mesh, const FixedJoints& fixed, Characte
   std::vector<Matrix4> binds;
   for (const Joint& joint : character.rig.joints) binds.push_back(joint.bind);
   const MirroredVertices vertices = mirrored_vertices(mesh.positions, plane_of_joints(binds, other));
-  if (vertices.share < least_share) {
+  if (vertices.share < min_share) {
     make_bones_symmetric(character);
     character.warnings.push_back(
         "the mesh does not stand alike on both sides (" + percent(vertices.share) +

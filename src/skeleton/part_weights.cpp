@@ -11,7 +11,7 @@ namespace focal {
 namespace {
 // Lengths in extents of the mesh, areas in its area. Chosen on characters of game packs.
 constexpr double touching = 5e-4;  // vertices that touch
-constexpr double most_rigid_area = 0.4, small_extent = 0.45, tiny_extent = 0.2;
+constexpr double max_rigid_area = 0.4, small_extent = 0.45, tiny_extent = 0.2;
 constexpr float nearly_one = 0.9F;      // share of the main joint in a part of any form that is rigid
 constexpr float one_bone = 0.75F;       // in a small one that does not bend with a joint
 constexpr float tiny_one_bone = 0.55F;  // in a tiny one
@@ -119,7 +119,7 @@ bool is_round_a_joint(const Part& part, const Box& box, const std::vector<Vector
 // The weights that all vertices of a rigid part have; empty: it is none. extent, area: of the mesh.
 Eigen::RowVectorXf rigid_weights(const Part& part, const MatrixX3& positions, const PlacedSkeleton& skeleton,
                                  double extent, double area) {
-  if (part.area > most_rigid_area * area) return {};
+  if (part.area > max_rigid_area * area) return {};
   Eigen::Index main = 0, second = 0;
   Eigen::RowVectorXf rest = part.mean;
   const float most = rest.maxCoeff(&main);

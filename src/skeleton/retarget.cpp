@@ -12,9 +12,9 @@
 namespace focal {
 namespace {
 
-constexpr double least_move = 1e-3;  // of the source's size: less is rounding
-constexpr double least_turn = 1e-3;  // radians, of a joint that does not move
-constexpr int64_t most_samples = 64'000'000;
+constexpr double min_move = 1e-3;  // of the source's size: less is rounding
+constexpr double min_turn = 1e-3;  // radians, of a joint that does not move
+constexpr int64_t max_samples = 64'000'000;
 constexpr int cubic_steps = 8;  // where a cubic segment has to be sampled
 
 struct Frame {
@@ -129,7 +129,7 @@ Retargeter::Retargeter(const ClipSource& source, const Clip& clip, const std::ve
       target_(target),
       target_rest_(target_rest),
       scale_(scale),
-      still_(least_move * size_of(source.joints)),
+      still_(min_move * size_of(source.joints)),
       match_(target.size(), nullptr),
       world_(world_transforms(source.tree)) {
   std::vector<std::string> wanted;
@@ -232,7 +232,7 @@ void Retargeter::follow_keys(const Follower& one, const Path& path, JointKeys& o
     out.rotation = changed(turns->keys, turned);
   } else {
     const Eigen::Quaterniond q = left * Eigen::Quaterniond(shown.turn) * right;
-    if (q.angularDistance(Eigen::Quaterniond(one.place.turn)) > least_turn)
+    if (q.angularDistance(Eigen::Quaterniond(one.place.turn)) > min_turn)
       out.rotation = constant(first_time_, q.coeffs());
   }
   double farthest = 0;
@@ -268,8 +268,7 @@ void Retargeter::sample(const std::vector<Follower>& sampled) {
   for (const Follower& one : sampled) add_times(one, all);
   if (all.empty()) all.insert(first_time_);
   const std::vector<double> times(all.begin(), all.end());
-  if (static_cast<int64_t>(times.size()) * static_cast<int64_t>(sampled.size() + world_.size()) >
-      most_samples)
+  if (static_cast<int64_t>(times.size()) * static_cast<int64_t>(sampled.size() + world_.size()) > max_samples)
     throw Error(Status::unsupported,
                 "the animation '" + clip_.name + "' has more keys than memory is allowed for",
                 "bake it in the program it was made with, with fewer keys");

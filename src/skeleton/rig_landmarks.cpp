@@ -7,7 +7,7 @@
 namespace focal {
 namespace {
 
-constexpr double least_apart = 0.05;  // landmarks, of sqrt(area): nearer ones say the same
+constexpr double min_apart = 0.05;  // landmarks, of sqrt(area): nearer ones say the same
 constexpr const char* axis_names[] = {"x", "y", "z"};
 
 // One landmark on every shape of the set.
@@ -173,7 +173,7 @@ void mark_by_skeleton(TrainingSet& set, int32_t most) {
     const auto marked = std::count_if(candidate.marks.begin(), candidate.marks.end(),
                                       [](const auto& mark) { return mark.has_value(); });
     const bool is_new = std::all_of(kept.begin(), kept.end(), [&](const Candidate* other) {
-      return distance_between(set, candidate, *other) >= least_apart;
+      return distance_between(set, candidate, *other) >= min_apart;
     });
     if (static_cast<int32_t>(kept.size()) < most && 2 * marked > static_cast<int64_t>(set.shapes.size()) &&
         is_new)

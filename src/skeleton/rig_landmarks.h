@@ -3,7 +3,7 @@
 #pragma once
 #include <vector>
 
-#include "landmarks/training_set.h"
+#include "model/training_set.h"
 
 namespace focal {
 

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "base/error.h"
-#include "landmarks/atlas.h"
+#include "landmarks/exemplar_maps.h"
 #include "mesh/section.h"
 #include "mesh/similarity.h"
 #include "skeleton/body_fit.h"
@@ -55,11 +55,11 @@ std::vector<ShapeMap> maps_of(const Detection& detection, const Execution& execu
       throw Error(Status::invalid_argument, "fewer than three landmarks were found on the mesh",
                   "is it of the category that the model was learned on?");
     const RowMatrixf fields = analysis.metric->distances(places_of(detection, landmark), execution);
-    maps = map_shapes(model.atlas, detection.exemplars, model.reach, analysis, landmark, fields,
+    maps = map_shapes(model.exemplars, detection.exemplars, model.reach, analysis, landmark, fields,
                       {.map = {.first = 20, .last = 120, .step = 8}}, execution);
   }
-  find_exact_images(maps, model.atlas, analysis, execution);
-  std::erase_if(maps, [&](const ShapeMap& one) { return !model.atlas[one.shape].rig; });
+  find_exact_images(maps, model.exemplars, analysis, execution);
+  std::erase_if(maps, [&](const ShapeMap& one) { return !model.exemplars[one.shape].rig; });
   return maps;
 }
 
@@ -67,7 +67,7 @@ std::vector<ShapeMap> maps_of(const Detection& detection, const Execution& execu
 double points_that_count(const Vector& weight) { return std::pow(weight.sum(), 2) / weight.squaredNorm(); }
 
 // Weights of the points round a place.
-Vector surroundings_of(const Vector3& place, const AtlasShape& shape) {
+Vector surroundings_of(const Vector3& place, const Exemplar& shape) {
   const Eigen::Index points = shape.positions.rows();
   const Vector away = (shape.positions.rowwise() - place.transpose()).rowwise().norm();
   std::vector<double> sorted(away.begin(), away.end());
@@ -79,7 +79,7 @@ Vector surroundings_of(const Vector3& place, const AtlasShape& shape) {
       .matrix();
 }
 
-Opinion opinion_of(const std::vector<SkeletonJoint>& skeleton, const AtlasShape& shape,
+Opinion opinion_of(const std::vector<SkeletonJoint>& skeleton, const Exemplar& shape,
                    const std::vector<int32_t>& image, const MatrixX3& vertices) {
   const Eigen::Index points = shape.positions.rows();
   MatrixX3 images(points, 3);
@@ -192,7 +192,7 @@ double variance_about(const Vector3& axis, const Matrix3& mean, const std::vecto
 
 // Of the first character that taught the model; there is one, or there were no maps.
 const ShapeRig& first_rig(const LandmarkModel& model) {
-  return *std::find_if(model.atlas.begin(), model.atlas.end(), [](const AtlasShape& shape) {
+  return *std::find_if(model.exemplars.begin(), model.exemplars.end(), [](const Exemplar& shape) {
             return shape.rig.has_value();
           })->rig;
 }
@@ -201,7 +201,7 @@ void settle_twists(const LandmarkModel& model, const std::vector<Opinion>& opini
   const ShapeRig& first = first_rig(model);
   std::vector<Vector3> way = bone_directions(parents_of(model.skeleton), joints.place, joints.tip);
   for (Vector3& one : way) one = one.norm() > 1e-9 ? Vector3(one.normalized()) : Vector3::Zero();
-  std::vector<TurnedJoint> turned;
+  std::vector<TwistedJoint> turned;
   for (size_t j = 0; j < model.skeleton.size(); ++j) {
     const auto& bind = first.bind[j];
     turned.push_back({model.skeleton[j].parent, joints.turn[j],
@@ -294,7 +294,7 @@ std::vector<Opinion> opinions_of(const std::vector<ShapeMap>& maps, const Landma
   for (const ShapeMap& one : maps) least = std::min(least, one.map.residual);
   std::vector<Opinion> opinions(maps.size());
   parallel_for(execution, static_cast<int64_t>(maps.size()), [&](int64_t m) {
-    opinions[m] = opinion_of(model.skeleton, model.atlas[maps[m].shape], maps[m].map.image, vertices);
+    opinions[m] = opinion_of(model.skeleton, model.exemplars[maps[m].shape], maps[m].map.image, vertices);
     opinions[m].weight = std::exp(-alike_falloff * (maps[m].map.residual - least));
   });
   return opinions;
@@ -315,7 +315,7 @@ void add_fits(const BodyFit& fit, const LandmarkModel& model, const ToFull& to_f
     Opinion& one = opinions.emplace_back();
     one.weight = shape.share;
     for (size_t j = 0; j < shape.tip.size(); ++j) {
-      const auto& bind = model.atlas[shape.shape].rig->bind[j];
+      const auto& bind = model.exemplars[shape.shape].rig->bind[j];
       one.place.emplace_back();
       if (bind) one.place.back() = to_full(shape.posture.place[j]);
       one.tip.push_back(to_full(shape.tip[j]));

@@ -11,6 +11,6 @@ namespace focal {
 // analysis, or neither maps nor three landmarks that are not absent. symmetric: see make_symmetric.
 // influences: of one vertex at most, 1 to 8. fixed: in the coordinates of mesh->source.
 CharacterRig transfer_rig(const Detection& detection, const Execution& execution, bool symmetric = false,
-                          int32_t influences = most_influences, const FixedJoints& fixed = {});
+                          int32_t influences = max_influences, const FixedJoints& fixed = {});
 
 }  // namespace focal

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "landmarks/training_set.h"
+#include "model/training_set.h"
 
 namespace focal {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "landmarks/model_parts.h"
 #include "mesh/section.h"
+#include "model/landmark_model.h"
 #include "skeleton/bone_heat.h"
 #include "skeleton/mirrored_rig.h"
 #include "skeleton/rig_landmarks.h"

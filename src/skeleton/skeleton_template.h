@@ -32,7 +32,7 @@ void check_template(const SkeletonTemplate& skeleton, const std::vector<std::str
 // heat. A joint's y axis points along its bone. fixed: in the coordinates of mesh->source. Throws what check_template throws, and
 // invalid_argument (a detection without an analysis).
 CharacterRig rig_by_template(const SkeletonTemplate& skeleton, const Detection& detection,
-                             const Execution& execution, int32_t influences = most_influences,
+                             const Execution& execution, int32_t influences = max_influences,
                              const FixedJoints& fixed = {});
 
 }  // namespace focal

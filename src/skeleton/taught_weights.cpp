@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "landmarks/model_parts.h"
+#include "model/landmark_model.h"
 #include "skeleton/leak_filter.h"
 #include "spectrum/functional_map.h"
 
@@ -14,9 +14,9 @@ namespace {
 constexpr double space_share =
     400;  // of a length in space beside lengths in the embedding, both of sqrt(area)
 constexpr double rigid_teachers = 0.92;  // hardness from which weights are not smoothed
-constexpr float most_exponent = 2, most_exponent_rigid = 8;
+constexpr float max_exponent = 2, max_exponent_rigid = 8;
 constexpr int between = PlacesBetween::vertices;
-constexpr double least_length = 1e-4;  // of a bone that has a direction
+constexpr double min_length = 1e-4;  // of a bone that has a direction
 
 // Where a joint's bones lead in the mean; the joint itself where they lead nowhere.
 Vector3 end_of(const std::vector<SkeletonJoint>& joints, const std::vector<Vector3>& place,
@@ -59,7 +59,7 @@ std::vector<Matrix4> transforms_onto(const PlacedSkeleton& skeleton, const Shape
     const Vector3 from = end_of(joints, old.place, rig.tip, j, bones) - old.place[j];
     const Vector3 to = end_of(joints, skeleton.place, skeleton.tip, j, bones) - skeleton.place[j];
     Matrix3 turn = skeleton.turn[j] * rig.bind[j]->topLeftCorner<3, 3>().transpose();
-    if (from.norm() > least_length && to.norm() > least_length) {
+    if (from.norm() > min_length && to.norm() > min_length) {
       if (bones < 2) turn = Eigen::Quaterniond::FromTwoVectors(turn * from, to).toRotationMatrix() * turn;
       size[j] = std::clamp(to.norm() / from.norm(), 0.5, 2.0);
     }
@@ -77,7 +77,7 @@ RowMatrixf with_places(const RowMatrixf& spectral, const MatrixX3& places) {
   return result;
 }
 
-void add_weights(const AtlasShape& shape, const ShapeMap& one, const SurfaceAnalysis& analysis,
+void add_weights(const Exemplar& shape, const ShapeMap& one, const SurfaceAnalysis& analysis,
                  const MatrixX3& posed, float weight, RowMatrixf& sum) {
   const Eigen::MatrixXf& C = one.map.C;
   const Eigen::Index points = shape.positions.rows();
@@ -94,7 +94,7 @@ void add_weights(const AtlasShape& shape, const ShapeMap& one, const SurfaceAnal
 double hardness_of(const Teachers& teachers) {
   double sum = 0, total = 0;
   for (size_t m = 0; m < teachers.maps.size(); ++m) {
-    const AtlasShape& shape = teachers.model.atlas[teachers.maps[m].shape];
+    const Exemplar& shape = teachers.model.exemplars[teachers.maps[m].shape];
     for (Eigen::Index i = 0; i < shape.positions.rows(); ++i) {
       const double area = teachers.weight[m] * shape.samples.weight[i];
       double squares = 0;
@@ -117,7 +117,7 @@ double hardness_of(const RowMatrixf& weights, const Vector& mass, float exponent
 
 // The power of the weights that makes them as hard as the training shapes' are.
 float exponent_for(const RowMatrixf& weights, const Vector& mass, double hardness) {
-  float low = 1, high = hardness < rigid_teachers ? most_exponent : most_exponent_rigid;
+  float low = 1, high = hardness < rigid_teachers ? max_exponent : max_exponent_rigid;
   for (int round = 0; round < 8; ++round) {
     const float middle = (low + high) / 2;
     (hardness_of(weights, mass, middle) < hardness ? low : high) = middle;
@@ -174,7 +174,7 @@ SurfaceWeights taught_weights(const Teachers& teachers, const SurfaceAnalysis& a
   std::vector<RowMatrixf> of_shape(teachers.maps.size(), RowMatrixf::Zero(sum.rows(), joints));
   std::vector<MatrixX3> posed(teachers.maps.size());
   parallel_for(execution, static_cast<int64_t>(teachers.maps.size()), [&](int64_t m) {
-    const AtlasShape& shape = teachers.model.atlas[teachers.maps[m].shape];
+    const Exemplar& shape = teachers.model.exemplars[teachers.maps[m].shape];
     posed[m] = skinned(shape.positions, shape.rig->influences, transforms_onto(skeleton, *shape.rig));
     add_weights(shape, teachers.maps[m], analysis, posed[m], static_cast<float>(teachers.weight[m]),
                 of_shape[m]);

@@ -2,8 +2,8 @@
 #pragma once
 #include <vector>
 
-#include "landmarks/atlas.h"
-#include "landmarks/landmark_model.h"
+#include "landmarks/exemplar_maps.h"
+#include "model/model_info.h"
 
 namespace focal {
 

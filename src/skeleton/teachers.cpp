@@ -13,10 +13,10 @@
 namespace focal {
 namespace {
 
-constexpr double one_place = 1e-4;      // of the mesh's largest extent: joints that lie no farther apart
-constexpr double least_weighted = 0.5;  // share of the vertices that a joint should move
-constexpr size_t most_named = 4;        // joints, or groups of characters, that one sentence names
-constexpr size_t most_numbered = 12;    // characters that it names
+constexpr double one_place = 1e-4;    // of the mesh's largest extent: joints that lie no farther apart
+constexpr double min_weighted = 0.5;  // share of the vertices that a joint should move
+constexpr size_t most_named = 4;      // joints, or groups of characters, that one sentence names
+constexpr size_t max_numbered = 12;   // characters that it names
 
 using Names = std::vector<std::string>;
 
@@ -33,7 +33,7 @@ std::string number_text(const std::vector<RiggedMesh>& characters, size_t index)
 
 // "character 2 (b.glb)", "characters 2, 3 and 7".
 std::string called(const std::vector<RiggedMesh>& characters, const std::vector<size_t>& which) {
-  const size_t said = which.size() > most_numbered ? most_numbered - 1 : which.size();
+  const size_t said = which.size() > max_numbered ? max_numbered - 1 : which.size();
   std::string text = which.size() == 1 ? "character " : "characters ";
   for (size_t i = 0; i < said; ++i)
     text += (i == 0 ? "" : i + 1 == which.size() ? " and " : ", ") + number_text(characters, which[i]);
@@ -195,7 +195,7 @@ void check_skin(const std::vector<RiggedMesh>& characters, size_t index, Names& 
   const auto& used = character.mesh->source_vertex;
   for (const int32_t v : used) bare += !(character.rig.influences[v][0].weight > 0);
   if (const double share = static_cast<double>(bare) / static_cast<double>(used.size());
-      share > 1 - least_weighted)
+      share > 1 - min_weighted)
     say(": " + std::to_string(static_cast<int>(100 * share)) + " % of its vertices have no skin weights");
 }
 

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double usual_twist =
     0.1;  // radians, of a bone against its parent's; chosen on left-out training characters
-constexpr double least_error = 0.05;  // radians, of any measured turn
+constexpr double min_error = 0.05;  // radians, of any measured turn
 
 }  // namespace
 
@@ -22,16 +22,16 @@ double twist_about(const Matrix3& rotation, const Vector3& axis) {
 
 // Least squares in the corrections c: c_j^2 / variance_j for all joints, and for each pair (twist_j + c_j - s c_p)^2 /
 // usual_twist^2, s the share of the parent's correction that turns about the bone of j too.
-std::vector<double> twist_corrections(const std::vector<TurnedJoint>& joints) {
+std::vector<double> twist_corrections(const std::vector<TwistedJoint>& joints) {
   const auto n = static_cast<Eigen::Index>(joints.size());
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n, n);
   Vector b = Vector::Zero(n);
   for (Eigen::Index j = 0; j < n; ++j) {
-    const TurnedJoint& joint = joints[j];
-    A(j, j) += 1 / (joint.variance + least_error * least_error);
+    const TwistedJoint& joint = joints[j];
+    A(j, j) += 1 / (joint.variance + min_error * min_error);
     if (joint.parent < 0 || joint.bone.isZero()) continue;
     const Eigen::Index p = joint.parent;
-    const TurnedJoint& parent = joints[p];
+    const TwistedJoint& parent = joints[p];
     const Matrix3 from_rest = parent.turn.transpose() * joint.turn * joint.rest.transpose() * parent.rest;
     const double twist = twist_about(from_rest, parent.turn.transpose() * joint.bone);
     const double shared = joint.bone.dot(parent.bone), strength = 1 / (usual_twist * usual_twist);

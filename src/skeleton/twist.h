@@ -7,7 +7,7 @@
 
 namespace focal {
 
-struct TurnedJoint {
+struct TwistedJoint {
   int32_t parent = -1;
   Matrix3 turn;         // its axes as measured
   Matrix3 rest;         // its axes in the rest pose of a training character
@@ -20,6 +20,6 @@ double twist_about(const Matrix3& rotation, const Vector3& axis);
 
 // Per joint the angle about its bone to turn it by, in radians: measurements count by their variance, and bones are twisted little
 // against each other, as joints of bodies are.
-std::vector<double> twist_corrections(const std::vector<TurnedJoint>& joints);
+std::vector<double> twist_corrections(const std::vector<TwistedJoint>& joints);
 
 }  // namespace focal

@@ -39,7 +39,7 @@ struct Criterion {
 };
 constexpr Criterion criteria[] = {
     {&RigMeasures::map_residual, 0.66, 0.8, 0.6, "no training character fits the surface well"},
-    {&RigMeasures::runner_up, 2, 0, 0.8,
+    {&RigMeasures::cost_margin, 2, 0, 0.8,
      "another way to lie in the mesh, turned or mirrored, suits nearly as well"},
     {&RigMeasures::joint_spread, 0.4, 0.9, 0.8, "the training characters disagree on where the joints lie"},
     {&RigMeasures::absent_share, 0.15, 0.7, 0.3, "many joints lie in parts of the body that were not found"},
@@ -56,7 +56,7 @@ constexpr double doubted_factor = 0.85;
 constexpr double far_outside = 0.1, longest_bone = 0.6, no_length = 0.004, real_length = 0.015,
                  merged_gap = 0.01, over_the_middle = 0.03;
 constexpr double stretch_allowed = 1.5;  // of the longest such bone of the training characters
-constexpr double least_ratio = 1e-3;     // lengths below it count alike
+constexpr double min_ratio = 1e-3;       // lengths below it count alike
 
 // 0 where it is fine or not measured, 1 where it is bad.
 template <class Measure>
@@ -120,15 +120,15 @@ Figure figure_of(const CharacterRig& rig, const MatrixX3& positions) {
   return result;
 }
 
-// Shapes of the atlas with a rig: those most like the mesh, else all.
-std::vector<const AtlasShape*> teachers_of(const Detection& detection) {
-  std::vector<const AtlasShape*> result;
-  const auto& atlas = detection.model->atlas;
-  const auto add = [&](const AtlasShape& shape) {
+// Shapes of the exemplars with a rig: those most like the mesh, else all.
+std::vector<const Exemplar*> teachers_of(const Detection& detection) {
+  std::vector<const Exemplar*> result;
+  const auto& exemplars = detection.model->exemplars;
+  const auto add = [&](const Exemplar& shape) {
     if (shape.rig && shape.positions.rows() > 0) result.push_back(&shape);
   };
-  for (const int32_t number : detection.exemplars) add(atlas[number]);
-  if (result.empty()) std::for_each(atlas.begin(), atlas.end(), add);
+  for (const int32_t number : detection.exemplars) add(exemplars[number]);
+  if (result.empty()) std::for_each(exemplars.begin(), exemplars.end(), add);
   return result;
 }
 
@@ -138,9 +138,9 @@ bool is_learned(const std::vector<SkeletonJoint>& skeleton, const std::vector<Jo
                     [](const SkeletonJoint& a, const Joint& b) { return a.name == b.name; });
 }
 
-std::vector<Figure> teachers_figures(const std::vector<const AtlasShape*>& teachers, const Figure& like) {
+std::vector<Figure> teachers_figures(const std::vector<const Exemplar*>& teachers, const Figure& like) {
   std::vector<Figure> result;
-  for (const AtlasShape* teacher : teachers) {
+  for (const Exemplar* teacher : teachers) {
     Figure figure{{}, like.parent, like.pair, like.is_left};
     for (const auto& bind : teacher->rig->bind)
       figure.place.push_back(bind ? std::optional<Vector3>(bind->topRightCorner<3, 1>()) : std::nullopt);
@@ -157,7 +157,7 @@ struct Range {
   void add(double length) {
     if (length < 0) return;
     least = std::min(least, length), most = std::max(most, length), ++count;
-    log_sum += std::log(std::max(length, least_ratio));
+    log_sum += std::log(std::max(length, min_ratio));
   }
 };
 
@@ -173,7 +173,7 @@ void measure_bones(const Figure& figure, const std::vector<Figure>& teachers, Ri
     if (taught.count == 0) continue;
     collapsed += length < no_length && taught.least > real_length;
     if (taught.least < real_length) continue;  // the length of short bones is noise
-    strain += std::abs(std::log(std::max(length, least_ratio)) - taught.log_sum / taught.count);
+    strain += std::abs(std::log(std::max(length, min_ratio)) - taught.log_sum / taught.count);
     ++strained;
   }
   out.long_share = share(too_long, bones), out.collapsed_share = share(collapsed, bones);
@@ -242,7 +242,7 @@ void measure_outside(const Figure& figure, const Rig& rig, RigMeasures& out) {
 
 // The training character most like the mesh, posed by the joints that were found: the distance from it that a twentieth of the mesh exceeds.
 // A mean would hide legs that it leaves out.
-double uncovered(const AtlasShape& teacher, const Rig& rig, const SurfaceAnalysis& analysis) {
+double uncovered(const Exemplar& teacher, const Rig& rig, const SurfaceAnalysis& analysis) {
   const ToCaller to_caller(analysis);
   std::vector<Matrix4> motion;
   for (size_t j = 0; j < rig.joints.size(); ++j) {
@@ -286,7 +286,7 @@ RigMeasures rig_measures(const Detection& detection, const CharacterRig& rig) {
   result.category_fit = detection.category_fit;
   if (!detection.maps.empty()) {
     result.map_residual = detection.map_residual, result.bulge_agreement = detection.bulge_agreement;
-    result.runner_up = detection.runner_up;
+    result.cost_margin = detection.cost_margin;
   }
   result.surface_distance = rig.surface_distance, result.heading_margin = rig.heading_margin;
   double doubt = 0, doubted = 0;
@@ -297,7 +297,7 @@ RigMeasures rig_measures(const Detection& detection, const CharacterRig& rig) {
   const auto unsure = std::count(rig.confidence.begin(), rig.confidence.end(), 0.0);
   const auto guessed = learned ? guessed_joints(detection).size() : static_cast<size_t>(unsure);
   result.absent_share = share(static_cast<double>(guessed), static_cast<double>(joints.size()));
-  const auto teachers = learned ? teachers_of(detection) : std::vector<const AtlasShape*>{};
+  const auto teachers = learned ? teachers_of(detection) : std::vector<const Exemplar*>{};
   const Figure figure = figure_of(rig, analysed_positions(*detection.mesh));
   const std::vector<Figure> taught = teachers_figures(teachers, figure);
   measure_bones(figure, taught, result);
@@ -330,8 +330,8 @@ const char* name_of(Verdict verdict) {
 // Fitted on 1466 joints of 82 rigs, by three models, of characters that did not teach or came from other packs; by cross-validation over the
 // characters the expected calibration error is 0.05. Agreement says little: the fits of a body mostly err together.
 void calibrate_confidence(double quality, const FixedJoints& fixed, CharacterRig& rig) {
-  constexpr double offset = -0.05, slope = 0.48, least_quality = 0.02, enough_agreement = 0.5;
-  const double q = std::clamp(quality, least_quality, 1 - least_quality);
+  constexpr double offset = -0.05, slope = 0.48, min_quality = 0.02, enough_agreement = 0.5;
+  const double q = std::clamp(quality, min_quality, 1 - min_quality);
   const double chance = 1 / (1 + std::exp(-offset - slope * std::log(q / (1 - q))));
   for (size_t j = 0; j < rig.confidence.size(); ++j)
     if (fixed.empty() || !fixed[j])

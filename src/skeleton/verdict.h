@@ -19,7 +19,7 @@ struct RigMeasures {
   double category_fit = unknown;     // see Detection
   double map_residual = unknown;     // likewise
   double bulge_agreement = unknown;  // likewise
-  double runner_up = unknown;        // how much more another configuration costs; infinite: none came near
+  double cost_margin = unknown;      // how much more another configuration costs; infinite: none came near
   double surface_distance = unknown, heading_margin = unknown;  // see CharacterRig
   double joint_spread = unknown;                                // mean over the joints of 1 - agreement
   double absent_share = unknown;                                // joints without a found landmark

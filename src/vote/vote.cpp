@@ -8,7 +8,7 @@
 namespace focal {
 namespace {
 
-constexpr int lanes = 32;
+constexpr int block_lanes = 32;
 
 constexpr int32_t tile = 8;  // samples at a time: their tables stay in the second-level cache
 
@@ -31,7 +31,7 @@ FOCAL_INLINE void add_tile(const TileVotes& t, int32_t lane) {
     Lane sum[vectors];
     for (int k = 0; k < vectors; ++k) sum[k] = out[k];
     for (int32_t j = 0; j < t.count; ++j) {
-      const float at = static_cast<float>(t.steps[v * lanes + j]) * t.to_row;
+      const float at = static_cast<float>(t.steps[v * block_lanes + j]) * t.to_row;
       const int32_t row = std::min(static_cast<int32_t>(at), t.last_row);
       const float fraction = std::min(at - static_cast<float>(row), 1.0f);
       const Lane* low = reinterpret_cast<const Lane*>(t.table[j] + int64_t{row} * t.stride + lane);
@@ -60,7 +60,8 @@ void add_distribution_votes(const VoteTables& tables, int32_t count, const Quant
       TileVotes t;
       t.count = std::min(tile, count - from);
       for (int32_t j = 0; j < t.count; ++j) t.table[j] = tables.of(from + j);
-      t.steps = distances.steps + (sample / lanes * distances.vertices + begin) * lanes + sample % lanes;
+      t.steps = distances.steps + (sample / block_lanes * distances.vertices + begin) * block_lanes +
+                sample % block_lanes;
       t.to_row = static_cast<float>(distances.step / tables.width);
       t.last_row = tables.rows - 2, t.stride = tables.stride();
       t.votes = &votes(begin, 0), t.vertices = end - begin;
@@ -81,7 +82,7 @@ void add_isoline_votes(const RowMatrixf& radii, const float* distances, int32_t 
   for (Eigen::Index e = 0; e < edges.rows(); ++e) {
     const int64_t a = edges(e, 0), b = edges(e, 1);
     for (int32_t j = 0; j < count; ++j) {
-      const auto [low, high] = std::minmax(distances[a * lanes + j], distances[b * lanes + j]);
+      const auto [low, high] = std::minmax(distances[a * block_lanes + j], distances[b * block_lanes + j]);
       for (auto it = std::lower_bound(sorted[j].begin(), sorted[j].end(), std::pair{low, INT32_MIN});
            it != sorted[j].end() && it->first <= high; ++it) {
         votes(a, it->second) += weights(j, it->second);

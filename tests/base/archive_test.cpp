@@ -46,7 +46,7 @@ std::string error_of(std::span<const std::byte> file) {
   }
 }
 
-void check_error(const std::string& error, const char* part) {
+void check_archive_error(const std::string& error, const char* part) {
   CAPTURE(error);
   CHECK(error.find(part) != std::string::npos);
 }
@@ -176,20 +176,20 @@ TEST_CASE("numbers of items are taken as far as the bytes go") {
 
 TEST_CASE("a file says why it is none") {
   const auto file = small_archive();
-  check_error(error_of(std::span(file).first(15)), "This is not a focal test file");
-  check_error(error_of(std::span(file).first(16)), "test header: size runs past the end");
-  check_error(error_of(std::span(file).first(file.size() - 1)), "is truncated");
+  check_archive_error(error_of(std::span(file).first(15)), "This is not a focal test file");
+  check_archive_error(error_of(std::span(file).first(16)), "test header: size runs past the end");
+  check_archive_error(error_of(std::span(file).first(file.size() - 1)), "is truncated");
   auto longer = file;
   longer.push_back({});
-  check_error(error_of(longer), "has bytes after its end");
+  check_archive_error(error_of(longer), "has bytes after its end");
 }
 
 TEST_CASE("as many sections as allowed, and no more than there are") {
   CHECK(error_of(archive_of(1024)) == "");
-  check_error(error_of(archive_of(1025)), "bad section count");
+  check_archive_error(error_of(archive_of(1025)), "bad section count");
   auto file = small_archive();
   put(file, 24, 1024);
-  check_error(error_of(file), "bad section count");
+  check_archive_error(error_of(file), "bad section count");
 }
 
 TEST_CASE("sections lie one after the other, each once, and fill the file") {
@@ -203,9 +203,9 @@ TEST_CASE("sections lie one after the other, each once, and fill the file") {
   constexpr size_t first = 32, second = 56;  // entries: name, checksum, offset, size
   const auto size = static_cast<uint32_t>(focal_test::number_at(file, first + 16, 8));
   CHECK(with(first + 16, size) == "");
-  check_error(with(first + 8, 81), "section NUMB: bad place in the file");
-  check_error(with(first + 16, size - 1), "section NEWS: bad place in the file");
-  check_error(with(second + 16, 2), "section NEWS: bad place in the file");
-  check_error(with(second + 16, 0), "the sections do not fill the file");
-  check_error(with(second, 'N' | 'U' << 8 | 'M' << 16 | 'B' << 24), "section NUMB: there twice");
+  check_archive_error(with(first + 8, 81), "section NUMB: bad place in the file");
+  check_archive_error(with(first + 16, size - 1), "section NEWS: bad place in the file");
+  check_archive_error(with(second + 16, 2), "section NEWS: bad place in the file");
+  check_archive_error(with(second + 16, 0), "the sections do not fill the file");
+  check_archive_error(with(second, 'N' | 'U' << 8 | 'M' << 16 | 'B' << 24), "section NUMB: there twice");
 }

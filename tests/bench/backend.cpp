@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <map>
 
+#include "analysis/device_surface.h"
 #include "compute/module_loader.h"
-#include "landmarks/backend_surface.h"
 #include "landmarks/detect.h"
 #include "landmarks/features.h"
 #include "mesh/proxy.h"
@@ -111,7 +111,7 @@ int run(const Options& options) {
   const Subject subject = sample_people(6, options.vertices),
                 small = sample_people(2, options.batch_vertices);
   TrainParams params;
-  params.learns_confidence = false, params.spoiled_copies = 0;
+  params.learns_confidence = false, params.augmented_copies = 0;
   const auto model = trained(subject, params, options.threads);
   const auto mesh = std::make_shared<const PreparedMesh>(prepare(subject.test));
   time_stages(*loaded.backend, *model, mesh, options);

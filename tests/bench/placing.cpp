@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/random.h"
-#include "landmarks/params.h"
+#include "model/params.h"
 
 namespace focal_bench {
 

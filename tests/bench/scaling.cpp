@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/atomic_file.h"
-#include "landmarks/model_file.h"
 #include "large_mesh.h"
+#include "model/model_file.h"
 #include "scaling_picture.h"
 #include "stages.h"
 #include "timing.h"

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "analysis/leaf_votes.h"
 #include "descriptors/si_hks.h"
-#include "landmarks/leaf_votes.h"
 #include "landmarks/train.h"
 
 namespace focal_bench {

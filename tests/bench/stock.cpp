@@ -9,10 +9,10 @@
 #include <stdexcept>
 #include <thread>
 
+#include "analysis/leaf_votes.h"
 #include "base/random.h"
 #include "base/stopwatch.h"
 #include "descriptors/si_hks.h"
-#include "landmarks/leaf_votes.h"
 #include "placing.h"
 
 namespace focal_bench {

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "landmarks/model_parts.h"
 #include "mesh/prepare.h"
+#include "model/landmark_model.h"
 #include "operators/operators.h"
 #include "spectrum/eigenbasis.h"
 #include "vote/vote.h"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "landmarks/model_parts.h"
-#include "landmarks/training_set.h"
+#include "model/landmark_model.h"
+#include "model/training_set.h"
 
 namespace focal_bench {
 

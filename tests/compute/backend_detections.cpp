@@ -6,8 +6,8 @@
 
 #include "compute/backend_under_test.h"
 #include "landmarks/detect.h"
-#include "landmarks/model_parts.h"
 #include "landmarks/train.h"
+#include "model/landmark_model.h"
 #include "sample_humanoid.h"
 
 using namespace focal;
@@ -35,7 +35,8 @@ std::shared_ptr<const LandmarkModel> trained(Preset preset) {
     set.shapes.push_back(std::move(shape));
   }
   TrainParams params = TrainParams::from_preset(preset);
-  params.eigenpair_count = 100, params.sampling_rate = 0.3, params.tree_count = 10, params.spoiled_copies = 0;
+  params.eigenpair_count = 100, params.sampling_rate = 0.3, params.tree_count = 10,
+  params.augmented_copies = 0;
   params.learns_confidence = false;
   if (preset == Preset::default_preset) params.proxy_vertices = sanitized ? 600 : 900;
   return std::make_shared<LandmarkModel>(train(set, params, {}));

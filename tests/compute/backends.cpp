@@ -9,14 +9,14 @@
 #include <cmath>
 #include <cstdio>
 
+#include "analysis/device_surface.h"
+#include "analysis/leaf_votes.h"
+#include "analysis/surface_analysis.h"
 #include "base/random.h"
 #include "compute/backend_under_test.h"
 #include "descriptors/descriptor.h"
 #include "descriptors/si_hks.h"
 #include "geodesics/heat_method.h"
-#include "landmarks/backend_surface.h"
-#include "landmarks/leaf_votes.h"
-#include "landmarks/surface_analysis.h"
 #include "surfaces.h"
 #include "vote/peaks.h"
 
@@ -76,10 +76,10 @@ const std::vector<Subject>& subjects() {
 
 struct OnDevice {
   explicit OnDevice(const Subject& of)
-      : distance(std::make_shared<BackendDistance>(of.mesh, of.operators, false, *backend)),
+      : distance(std::make_shared<DeviceDistance>(of.mesh, of.operators, false, *backend)),
         surface(*distance->surface()) {}
-  std::shared_ptr<BackendDistance> distance;
-  const BackendSurface& surface;
+  std::shared_ptr<DeviceDistance> distance;
+  const DeviceSurface& surface;
 };
 
 constexpr int32_t eigenpairs = 60;

@@ -7,11 +7,11 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/leaf_votes.h"
 #include "base/random.h"
 #include "compute/device/votes.h"
 #include "compute/host_queue.h"
-#include "landmarks/leaf_votes.h"
-#include "landmarks/small_model.h"
+#include "model/small_model.h"
 #include "operators/operators.h"
 #include "vote/peaks.h"
 #include "vote/vote.h"

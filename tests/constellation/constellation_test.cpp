@@ -174,7 +174,7 @@ TEST_CASE("choices that come near the best one are given too, if they are others
   const auto candidates =
       candidates_on(individual(mirror_lump, 50), options, std::vector<float>(2 * marks.size(), 0));
   ConstellationParams params;
-  params.handedness_weight = 0;  // nothing tells the two sides now
+  params.chirality_weight = 0;  // nothing tells the two sides now
   const auto choices = choose_constellations(statistics, candidates, params, {});
   const auto differing = [&](size_t a, size_t b) {
     size_t count = 0;
@@ -188,7 +188,7 @@ TEST_CASE("choices that come near the best one are given too, if they are others
     has_mirror_image = has_mirror_image || differing(0, c) == marks.size();
   }
   CHECK(has_mirror_image);
-  params.most_choices = 1;
+  params.max_choices = 1;
   CHECK(choose_constellations(statistics, candidates, params, {}).size() == 1);
 }
 

@@ -23,7 +23,7 @@ TangentDirections directions_on(const TriangleMesh& mesh, const std::vector<int3
 
 }  // namespace
 
-TEST_CASE("on the plane, handedness is the sine of the angle between the ways") {
+TEST_CASE("on the plane, chirality is the sine of the angle between the ways") {
   const TriangleMesh mesh = square(25, 0.2);
   const std::vector<int32_t> vertices = {25 * 51 + 25, 25 * 51 + 40, 40 * 51 + 30, 12 * 51 + 12};
   const TangentDirections directions = directions_on(mesh, vertices, 0.1);
@@ -33,12 +33,12 @@ TEST_CASE("on the plane, handedness is the sine of the angle between the ways") 
         if (c == a || c == b || a == b) continue;
         const Vector3 to_a = (mesh.positions.row(vertices[a]) - mesh.positions.row(vertices[c])).normalized();
         const Vector3 to_b = (mesh.positions.row(vertices[b]) - mesh.positions.row(vertices[c])).normalized();
-        CHECK(directions.handedness(c, a, b) == doctest::Approx(to_a.cross(to_b).z()).epsilon(0.05).scale(1));
-        CHECK(directions.handedness(c, a, b) == -directions.handedness(c, b, a));
+        CHECK(directions.chirality(c, a, b) == doctest::Approx(to_a.cross(to_b).z()).epsilon(0.05).scale(1));
+        CHECK(directions.chirality(c, a, b) == -directions.chirality(c, b, a));
       }
 }
 
-TEST_CASE("an isometry keeps handedness, a reflection negates it") {
+TEST_CASE("an isometry keeps chirality, a reflection negates it") {
   const TriangleMesh mesh = with_radius(sphere(4), lump);
   const std::vector<int32_t> vertices = {3, 250, 611, 1000};
   const TangentDirections before = directions_on(mesh, vertices, 0.25);
@@ -53,9 +53,9 @@ TEST_CASE("an isometry keeps handedness, a reflection negates it") {
   for (int c = 0; c < 4; ++c)
     for (int a = 0; a < 4; ++a)
       for (int b = 0; b < 4; ++b) {
-        CHECK(std::abs(same.handedness(c, a, b) - before.handedness(c, a, b)) < 1e-3);
-        CHECK(std::abs(opposite.handedness(c, a, b) + before.handedness(c, a, b)) < 1e-3);
-        largest = std::max<double>(largest, std::abs(before.handedness(c, a, b)));
+        CHECK(std::abs(same.chirality(c, a, b) - before.chirality(c, a, b)) < 1e-3);
+        CHECK(std::abs(opposite.chirality(c, a, b) + before.chirality(c, a, b)) < 1e-3);
+        largest = std::max<double>(largest, std::abs(before.chirality(c, a, b)));
       }
   CHECK(largest > 0.3);  // there was something to negate
 }

@@ -12,7 +12,7 @@
 #include "base/stopwatch.h"
 #include "correspondence/dense_map.h"
 #include "evaluation_data.h"
-#include "landmarks/model_file.h"
+#include "model/model_file.h"
 
 namespace {
 

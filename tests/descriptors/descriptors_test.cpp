@@ -197,7 +197,7 @@ TEST_CASE("no descriptor changes when the mesh is turned, moved and scaled, and 
   for (const DescriptorKind& kind : descriptor_kinds()) {
     CAPTURE(kind.name);
     CHECK(names.insert(kind.name).second);
-    CHECK(kind.dimension <= most_components);
+    CHECK(kind.dimension <= max_components);
     const RowMatrix one = before.describe(kind.name), other = after.describe(kind.name);
     CHECK(one.cols() == kind.dimension);
     CHECK(one.allFinite());

@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <memory>
 
+#include "analysis/analysis_file.h"
 #include "base/error.h"
 #include "base/signed_archive.h"
 #include "fuzz.h"
-#include "landmarks/analysis_file.h"
-#include "landmarks/model_file.h"
+#include "model/model_file.h"
 #include "seeds.h"
 
 using namespace focal;

@@ -2,12 +2,12 @@
 
 #include <array>
 
+#include "analysis/analysis_file.h"
+#include "analysis/surface_analysis.h"
 #include "gltf/gltf_builder.h"
 #include "landmark_files.h"
-#include "landmarks/analysis_file.h"
-#include "landmarks/model_file.h"
-#include "landmarks/small_model.h"
-#include "landmarks/surface_analysis.h"
+#include "model/model_file.h"
+#include "model/small_model.h"
 
 using namespace focal;
 using focal_test::GltfBuilder;

@@ -8,8 +8,8 @@
 #include "base/multiversion.h"
 #include "base/random.h"
 #include "landmarks/detect.h"
-#include "landmarks/model_parts.h"
 #include "landmarks/train.h"
+#include "model/landmark_model.h"
 #include "sample_humanoid.h"
 
 using namespace focal;
@@ -33,7 +33,7 @@ const std::shared_ptr<const LandmarkModel>& model() {
       set.shapes.push_back(marked(humanoid(seed)));
     TrainParams params = TrainParams::from_preset(Preset::default_preset);
     params.eigenpair_count = 100, params.sampling_rate = 0.3, params.tree_count = 10;
-    params.spoiled_copies = 0, params.learns_confidence = false, params.proxy_vertices = proxy_vertices;
+    params.augmented_copies = 0, params.learns_confidence = false, params.proxy_vertices = proxy_vertices;
     return std::make_shared<LandmarkModel>(train(set, params, {}));
   }();
   return made;

@@ -29,7 +29,7 @@ TEST_CASE("features: as many as model files have room for, those of preset paper
   for (size_t d = 0; d < descriptor_kinds().size(); ++d) {
     TrainParams params = with(true, true);
     params.descriptor = static_cast<int32_t>(d);
-    CHECK(feature_count(params) <= most_components);
+    CHECK(feature_count(params) <= max_components);
     params.preset = Preset::paper;
     CHECK(feature_count(params) == descriptor_kinds()[d].dimension);
   }
@@ -91,7 +91,7 @@ TEST_CASE("features: what is said of a point's height does not change with a tur
   };
   const RowMatrixf upright = upright_features(analysis, placed);
   CHECK(upright.cols() == upright_feature_count(params));
-  CHECK(upright_feature_count(params) <= most_components);
+  CHECK(upright_feature_count(params) <= max_components);
   CHECK(upright.leftCols(invariant_feature_count(params)) == invariant_features(analysis, 20));
   CHECK((upright_features(analysis, turned_about({0, 1, 0})) - upright).cwiseAbs().maxCoeff() < 1e-5F);
   CHECK((upright_features(analysis, turned_about({1, 0, 0})) - upright).cwiseAbs().maxCoeff() > 0.1F);

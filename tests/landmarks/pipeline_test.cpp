@@ -6,13 +6,13 @@
 #include <chrono>
 #include <thread>
 
+#include "augmentation/corruption.h"
 #include "base/error.h"
 #include "base/multiversion.h"
 #include "landmarks/detect.h"
-#include "landmarks/model_file.h"
-#include "landmarks/model_parts.h"
 #include "landmarks/train.h"
-#include "mesh/damage.h"
+#include "model/landmark_model.h"
+#include "model/model_file.h"
 #include "sample_humanoid.h"
 
 using namespace focal;
@@ -32,9 +32,9 @@ const TrainingSet& training_set() {
 }
 
 #ifdef FOCAL_SANITIZED  // many times slower: the same code, on less
-constexpr bool sanitized = true;
+constexpr bool is_sanitized = true;
 #else
-constexpr bool sanitized = false;
+constexpr bool is_sanitized = false;
 #endif
 
 // Small enough for a sanitizer, large enough to find every landmark.
@@ -44,9 +44,9 @@ TrainParams small_params(Preset preset = Preset::default_preset) {
   params.sampling_rate = 0.5;
   if (preset == Preset::default_preset) params.proxy_vertices = 1500;
   params.tree_count = 10;
-  params.spoiled_copies = 2;
-  if (sanitized) params.sampling_rate = 0.25;
-  if (sanitized && preset == Preset::default_preset) params.proxy_vertices = 1000;
+  params.augmented_copies = 2;
+  if (is_sanitized) params.sampling_rate = 0.25;
+  if (is_sanitized && preset == Preset::default_preset) params.proxy_vertices = 1000;
   return params;
 }
 
@@ -130,7 +130,7 @@ TEST_CASE("landmarks whose places are known stay there, and do not mislead the o
 
 TEST_CASE(
     "a body that lost an arm keeps the landmarks that it has, and is surer of them than of the lost ones" *
-    doctest::skip(sanitized)) {  // how sure a model is needs one of full size
+    doctest::skip(is_sanitized)) {  // how sure a model is needs one of full size
   const creatures::Character whole = humanoid(200);
   std::vector<std::optional<SurfacePoint>> marks;
   int32_t hand = -1;
@@ -140,7 +140,7 @@ TEST_CASE(
   }
   REQUIRE(hand >= 0);
   const double radius = 0.25 * std::sqrt(surface_area(posed_mesh(whole)));  // hand and forearm
-  const DamagedMesh cut = cut_ball(undamaged(posed_mesh(whole), marks), *marks[hand], radius, CutEnd::open);
+  const CorruptedMesh cut = cut_ball(intact(posed_mesh(whole), marks), *marks[hand], radius, CutEnd::open);
   const auto mesh = std::make_shared<const PreparedMesh>(prepare(cut.mesh));
   const Detection detection = detect(small_model(), mesh, {}, threads(2));
   const double edge = mean_edge_length(posed_mesh(whole));
@@ -169,7 +169,7 @@ TEST_CASE("preset paper trains and votes on every landmark") {
   CHECK(sorted[sorted.size() / 2] < 15);  // the paper's own method: right region, on a shape it has learned
 }
 
-TEST_CASE("the same bits for one, two and four threads, and from run to run" * doctest::skip(sanitized)) {
+TEST_CASE("the same bits for one, two and four threads, and from run to run" * doctest::skip(is_sanitized)) {
   const auto one = shared_model(training_set(), small_params(), 1);
   CHECK(serialise(*one) == serialise(*small_model()));
   const auto mesh = std::make_shared<PreparedMesh>(prepare(posed_mesh(humanoid(201))));
@@ -187,7 +187,7 @@ DetectParams with_quality(Quality quality) {
   return params;
 }
 
-TEST_CASE("every instruction set of this processor finds the same places" * doctest::skip(sanitized)) {
+TEST_CASE("every instruction set of this processor finds the same places" * doctest::skip(is_sanitized)) {
   const auto mesh = std::make_shared<PreparedMesh>(prepare(posed_mesh(humanoid(204))));
   const double edge = mean_edge_length(mesh->source);
   for (const Quality quality : {Quality::best, Quality::interactive}) {
@@ -213,7 +213,7 @@ TEST_CASE("a model from its file detects like the one that was saved") {
   CHECK(same(detect(small_model(), mesh, {}, threads(2)), detect(loaded, mesh, {}, threads(2))));
 }
 
-TEST_CASE("scale and rigid motion change nothing but the coordinates" * doctest::skip(sanitized)) {
+TEST_CASE("scale and rigid motion change nothing but the coordinates" * doctest::skip(is_sanitized)) {
   TriangleMesh moved = posed_mesh(humanoid(203));
   const auto original = std::make_shared<PreparedMesh>(prepare(moved));
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(1.1, Vector3(1, 2, 3).normalized()).toRotationMatrix();

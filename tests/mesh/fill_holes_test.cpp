@@ -8,7 +8,7 @@
 #include <numbers>
 #include <set>
 
-#include "mesh/damage.h"
+#include "kit/corruption.h"
 #include "surfaces.h"
 
 using namespace focal;
@@ -27,7 +27,7 @@ double volume(const TriangleMesh& mesh) {
   return six / 6;
 }
 
-int most_triangles_on_an_edge(const TriangleMesh& mesh) {
+int max_triangles_on_an_edge(const TriangleMesh& mesh) {
   std::map<std::pair<int32_t, int32_t>, int> uses;
   int most = 0;
   for (int32_t t = 0; t < mesh.triangle_count(); ++t)
@@ -43,7 +43,7 @@ bool begins_with(const TriangleMesh& filled, const TriangleMesh& mesh) {
 
 TriangleMesh with_these_holes(const TriangleMesh& mesh, int32_t count, double radius, uint64_t seed) {
   Random random(seed);
-  return with_holes(undamaged(mesh), count, radius, random).mesh;
+  return with_holes(intact(mesh), count, radius, random).mesh;
 }
 
 // Without the triangles for which lost(centroid).
@@ -52,7 +52,7 @@ TriangleMesh without(const TriangleMesh& mesh, Lost lost) {
   std::vector<char> stays;
   for (int32_t t = 0; t < mesh.triangle_count(); ++t)
     stays.push_back(!lost(position_of(mesh, {t, Vector3::Constant(1.0 / 3)})));
-  return keep_triangles(undamaged(mesh), stays).mesh;
+  return keep_triangles(intact(mesh), stays).mesh;
 }
 
 TriangleMesh of(std::initializer_list<Vector3> positions, std::initializer_list<Eigen::Vector3i> triangles) {
@@ -114,12 +114,12 @@ TEST_CASE("a stump ends flat, a hole in a curved surface bulges with it") {
   TriangleMesh capsule = sphere(5);  // a long limb along z
   for (Eigen::Index v = 0; v < capsule.positions.rows(); ++v) capsule.positions(v, 2) *= 4;
   const TriangleMesh stump =
-      cut_beyond(undamaged(capsule), Vector3(0, 0, 1), Vector3(0, 0, 1), CutEnd::open).mesh;
+      cut_beyond(intact(capsule), Vector3(0, 0, 1), Vector3(0, 0, 1), CutEnd::open).mesh;
   const FilledMesh flat = fill_holes(stump, {.longest_border = 3, .largest_share = 0.3});
   REQUIRE(flat.holes == 1);
   CHECK(flat.mesh.positions.col(2).maxCoeff() <= 1);
   const TriangleMesh bald =
-      cut_beyond(undamaged(sphere(5)), Vector3(0, 0, 0.9), Vector3(0, 0, 1), CutEnd::open).mesh;
+      cut_beyond(intact(sphere(5)), Vector3(0, 0, 0.9), Vector3(0, 0, 1), CutEnd::open).mesh;
   const FilledMesh round = fill_holes(bald, {.longest_border = 3});
   REQUIRE(round.holes == 1);
   CHECK(bald.positions.col(2).maxCoeff() <= 0.9);
@@ -148,7 +148,7 @@ TEST_CASE("random holes of bumpy shapes close, whatever the holes do to each oth
     CHECK(begins_with(filled.mesh, holed));
     CHECK(filled.mesh.positions.allFinite());
     CHECK(filled.mesh.triangles.maxCoeff() < filled.mesh.vertex_count());
-    CHECK(most_triangles_on_an_edge(filled.mesh) == 2);
+    CHECK(max_triangles_on_an_edge(filled.mesh) == 2);
     CHECK(border_loops(filled.mesh).size() == border_loops(holed).size() - filled.holes);
   }
 }
@@ -181,7 +181,7 @@ TEST_CASE("two holes with two corners in common do not both use the edge between
     for (Eigen::Index i = 0; i < mesh.positions.size(); ++i) mesh.positions.data()[i] = random.uniform();
     const FilledMesh filled = fill_holes(mesh, {.longest_border = 100, .largest_share = 100});
     REQUIRE(filled.holes > 0);
-    CHECK(most_triangles_on_an_edge(filled.mesh) == 2);
+    CHECK(max_triangles_on_an_edge(filled.mesh) == 2);
     both += filled.holes > 1;
   }
   CHECK(both > 0);
@@ -216,7 +216,7 @@ TEST_CASE("a loop whose corners are joined elsewhere gets no edge twice") {
   filled = fill_holes(crossed, {.longest_border = 100, .largest_share = 1});
   REQUIRE(filled.holes > 0);
   CHECK(begins_with(filled.mesh, crossed));
-  CHECK(most_triangles_on_an_edge(filled.mesh) == 2);
+  CHECK(max_triangles_on_an_edge(filled.mesh) == 2);
 }
 
 TEST_CASE("surfaces that are none: nothing crashes, nothing given changes") {

@@ -35,7 +35,7 @@ RANGE = re.compile(r"\b(integer|i32|u32|f32|f32s|count|check_range|number)\(")
 SUBJECTS = [
     ("src/gltf/*.cpp", ["*gltf/*"], ["mesh"]),
     ("src/base/archive.cpp", ["*base/archive*"], []),
-    ("src/landmarks/*_file.cpp", ["*landmarks/*_file*"], []),
+    ("src/model/*_file.cpp", ["*model/*_file*"], []),
     ("capi/*.cpp", [], None),
 ]
 # Of the C interface: tests/capi/X_test for capi/X.cpp, and these, the likeliest and quickest first.

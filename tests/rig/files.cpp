@@ -6,9 +6,9 @@
 #include <iostream>
 
 #include "base/stopwatch.h"
-#include "landmarks/model_parts.h"
 #include "landmarks/train.h"
 #include "mesh/section.h"
+#include "model/landmark_model.h"
 #include "rig/rigged_file.h"
 #include "rig/skeleton_metrics.h"
 #include "skeleton/rig_transfer.h"

@@ -10,10 +10,10 @@ namespace {
 
 using namespace focal;
 
-DamagedMesh start(const Shape& shape) { return undamaged(shape.mesh, shape.marks); }
+CorruptedMesh start(const Shape& shape) { return intact(shape.mesh, shape.marks); }
 
 Case damage(const std::string& name, const std::string& wanted,
-            std::function<DamagedMesh(DamagedMesh, Random&)> how) {
+            std::function<CorruptedMesh(CorruptedMesh, Random&)> how) {
   return {name, wanted, false, false, [how = std::move(how)](const Shape& shape, Random& random) {
             return Spoiled{how(start(shape), random), Matrix4::Identity(), 1};
           }};
@@ -33,15 +33,15 @@ struct Limb {
 };
 
 // All limbs go, each by a ball round its tip that ends halfway between the last mark to go and the next.
-DamagedMesh without(const Shape& shape, const std::vector<Limb>& limbs, CutEnd end) {
-  DamagedMesh damaged = start(shape);
+CorruptedMesh without(const Shape& shape, const std::vector<Limb>& limbs, CutEnd end) {
+  CorruptedMesh corrupted = start(shape);
   for (const Limb& limb : limbs) {
     const double gone = limb.last == limb.tip ? 0 : path_between(shape, limb.tip, limb.last);
     const double stays = path_between(shape, limb.tip, limb.next);
-    if (!damaged.marks[limb.tip]) continue;
-    damaged = cut_ball(std::move(damaged), *damaged.marks[limb.tip], (gone + stays) / 2, end);
+    if (!corrupted.marks[limb.tip]) continue;
+    corrupted = cut_ball(std::move(corrupted), *corrupted.marks[limb.tip], (gone + stays) / 2, end);
   }
-  return damaged;
+  return corrupted;
 }
 
 Case amputation(const std::string& name, std::vector<Limb> limbs, CutEnd end) {
@@ -83,19 +83,19 @@ Case similarity(const std::string& name, double scale, double distance, int numb
 
 std::vector<Case> all_cases(const Shapes& shapes) {
   std::vector<Case> cases{
-      damage("clean", "", [](DamagedMesh mesh, Random&) { return mesh; }),
+      damage("clean", "", [](CorruptedMesh mesh, Random&) { return mesh; }),
       damage("noise 0.3 edge", "+0.5",
-             [](DamagedMesh mesh, Random& random) { return with_noise(std::move(mesh), 0.3, random); }),
+             [](CorruptedMesh mesh, Random& random) { return with_noise(std::move(mesh), 0.3, random); }),
       damage("60 vertex holes", "+0.3",
-             [](DamagedMesh mesh, Random& random) { return with_holes(std::move(mesh), 60, 0, random); }),
+             [](CorruptedMesh mesh, Random& random) { return with_holes(std::move(mesh), 60, 0, random); }),
       damage("20 holes of 1.5", "+1.0",
-             [](DamagedMesh mesh, Random& random) { return with_holes(std::move(mesh), 20, 1.5, random); }),
+             [](CorruptedMesh mesh, Random& random) { return with_holes(std::move(mesh), 20, 1.5, random); }),
       damage("40 holes of 2.5", "+3.0",
-             [](DamagedMesh mesh, Random& random) { return with_holes(std::move(mesh), 40, 2.5, random); }),
+             [](CorruptedMesh mesh, Random& random) { return with_holes(std::move(mesh), 40, 2.5, random); }),
       damage("half resolution", "+0.3",
-             [](DamagedMesh mesh, Random& random) { return resampled(std::move(mesh), 0.5, random); }),
+             [](CorruptedMesh mesh, Random& random) { return resampled(std::move(mesh), 0.5, random); }),
       damage("double resolution", "+0.3",
-             [](DamagedMesh mesh, Random& random) { return resampled(std::move(mesh), 2, random); })};
+             [](CorruptedMesh mesh, Random& random) { return resampled(std::move(mesh), 2, random); })};
   for (const double scale : {1e-6, 1e-3, 1e3, 1e6}) {
     char text[32];
     std::snprintf(text, sizeof text, "scale %.0e", scale);

@@ -4,13 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "mesh/damage.h"
+#include "kit/corruption.h"
 #include "shapes.h"
 
 namespace focal_robustness {
 
 struct Spoiled {
-  focal::DamagedMesh damaged;
+  focal::CorruptedMesh corrupted;
   focal::Matrix4 map = focal::Matrix4::Identity();  // from the clean mesh's space
   double scale = 1;                                 // of the map
 };

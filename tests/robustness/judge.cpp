@@ -42,10 +42,10 @@ double nearest_border(const TriangleMesh& mesh, const std::vector<std::vector<in
 void judge(const Case& which, const Shape& shape, const Spoiled& spoiled,
            const std::vector<DetectedLandmark>& found, double edge, CaseResult& result) {
   const auto border =
-      which.missing ? border_loops(spoiled.damaged.mesh) : std::vector<std::vector<int32_t>>{};
+      which.missing ? border_loops(spoiled.corrupted.mesh) : std::vector<std::vector<int32_t>>{};
   for (size_t l = 0; l < found.size(); ++l) {
     if (!shape.marks[l]) continue;
-    const auto& truth = spoiled.damaged.marks[l];
+    const auto& truth = spoiled.corrupted.marks[l];
     if (!truth && !which.missing) {
       ++result.lost_in_holes;  // a place the size of a hole: neither here nor absent
       continue;
@@ -55,10 +55,10 @@ void judge(const Case& which, const Shape& shape, const Spoiled& spoiled,
     result.both_absent += said_absent && !truth;
     (truth ? result.confidence_here : result.confidence_gone).push_back(found[l].confidence);
     (truth ? result.border_here : result.border_gone)
-        .push_back(nearest_border(spoiled.damaged.mesh, border, found[l].position) / edge);
+        .push_back(nearest_border(spoiled.corrupted.mesh, border, found[l].position) / edge);
     result.outcomes.push_back({found[l].confidence, nullptr});
     if (!truth) continue;
-    result.errors.push_back((found[l].position - position_of(spoiled.damaged.mesh, *truth)).norm() /
+    result.errors.push_back((found[l].position - position_of(spoiled.corrupted.mesh, *truth)).norm() /
                             (edge * spoiled.scale));
     result.outcomes.back()[1] = result.errors.back();
   }
@@ -104,7 +104,7 @@ CaseResult run_case(const Case& which, const Shapes& shapes,
     Stopwatch watch;
     try {
       const auto mesh =
-          std::make_shared<const PreparedMesh>(prepare(in_single_precision(spoiled.damaged.mesh)));
+          std::make_shared<const PreparedMesh>(prepare(in_single_precision(spoiled.corrupted.mesh)));
       DetectParams how;
       how.keep_votes = false;
       const auto found = detect(model, mesh, how, {}).landmarks;

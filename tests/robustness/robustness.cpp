@@ -12,8 +12,8 @@
 #include "base/atomic_file.h"
 #include "base/stopwatch.h"
 #include "judge.h"
-#include "landmarks/model_file.h"
 #include "landmarks/train.h"
+#include "model/model_file.h"
 #include "regions.h"
 
 namespace {

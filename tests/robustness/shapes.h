@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "landmarks/training_set.h"
 #include "mesh/triangle_mesh.h"
+#include "model/training_set.h"
 
 namespace focal_robustness {
 

@@ -25,7 +25,7 @@ struct Subject {
     counterpart = other_sides(joints);
     surface = training_set_of({rigged(humanoid(1))}, {.shapes = 8, .landmarks = 40}).shapes[0].mesh->surface;
   }
-  const AtlasShape& shape() const { return model->atlas[0]; }
+  const Exemplar& shape() const { return model->exemplars[0]; }
 };
 
 const Subject& subject() {
@@ -112,7 +112,7 @@ TEST_CASE("a bent arm and knee, and a larger body, are found again") {
 
 TEST_CASE("a control on the ground that moves no vertex comes along, and pulls nothing") {
   const Vector3 ground(0, subject().surface.positions.col(1).minCoeff(), 0);
-  AtlasShape shape = subject().shape();
+  Exemplar shape = subject().shape();
   std::vector<SkeletonJoint> skeleton = subject().model->skeleton;
   for (SkeletonJoint& joint : skeleton) ++joint.parent;
   skeleton.insert(skeleton.begin(), {"root", -1});

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "landmarks/model_file.h"
+#include "model/model_file.h"
 #include "skeleton/rig_landmarks.h"
 #include "skeleton/small_rig.h"
 

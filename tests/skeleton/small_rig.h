@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "landmarks/model_parts.h"
 #include "landmarks/train.h"
+#include "model/landmark_model.h"
 #include "sample_humanoid.h"
 #include "skeleton/rigged_shapes.h"
 
@@ -45,7 +45,7 @@ inline focal::TrainParams small() {
   return {.eigenpair_count = 80,
           .tree_count = 10,
           .proxy_vertices = 1500,
-          .spoiled_copies = 0,
+          .augmented_copies = 0,
           .learns_confidence = false};
 }
 

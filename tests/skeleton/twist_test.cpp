@@ -17,9 +17,9 @@ Matrix3 about(const Vector3& axis, double angle) {
 }
 
 // A straight chain along z; each joint is turned about it by an angle, at rest by none.
-std::vector<TurnedJoint> turned_chain(const std::vector<double>& angles,
-                                      const std::vector<double>& variances) {
-  std::vector<TurnedJoint> joints;
+std::vector<TwistedJoint> turned_chain(const std::vector<double>& angles,
+                                       const std::vector<double>& variances) {
+  std::vector<TwistedJoint> joints;
   for (size_t j = 0; j < angles.size(); ++j)
     joints.push_back({static_cast<int32_t>(j) - 1, about(Vector3::UnitZ(), angles[j]), Matrix3::Identity(),
                       Vector3::UnitZ(), variances[j]});

@@ -60,7 +60,7 @@ TEST_CASE("the worse a measure, the lower the quality; all bad: failed, with the
       {&RigMeasures::category_fit, {1, 0.1, 0}},
       {&RigMeasures::map_residual, {0.1, 0.7, 2}},
       {&RigMeasures::bulge_agreement, {0.8, 0.1, -0.5}},
-      {&RigMeasures::runner_up, {1e9, 1, 0}},
+      {&RigMeasures::cost_margin, {1e9, 1, 0}},
       {&RigMeasures::surface_distance, {0, 0.06, 1}},
       {&RigMeasures::heading_margin, {1, 0.03, 0}},
       {&RigMeasures::joint_spread, {0, 0.7, 1}},
@@ -85,7 +85,7 @@ TEST_CASE("the worse a measure, the lower the quality; all bad: failed, with the
     all.*measure = values[2];
   }
   RigMeasures alone;
-  alone.runner_up = alone.heading_margin = std::numeric_limits<double>::infinity();
+  alone.cost_margin = alone.heading_margin = std::numeric_limits<double>::infinity();
   CHECK(rig_quality(alone) == 1);
   CHECK(verdict_of(all) == Verdict::failed);
   CHECK(doubts_about(all).size() == worse.size());

@@ -4,7 +4,7 @@
 
 namespace focal {
 
-// ---- Forest and votes (see forest/regression_forest.h, landmarks/leaf_votes.cpp, vote/vote.cpp)
+// ---- Forest and votes (see forest/regression_forest.h, analysis/leaf_votes.cpp, vote/vote.cpp)
 
 struct ForestTable {
   const int32_t *node_start, *leaf_start_start, *leaf_sample_start;
@@ -120,7 +120,7 @@ struct WidenEntry {
   }
 };
 
-// ---- Preset paper (see landmarks/paper.cpp)
+// ---- Preset paper (see paper/paper.cpp)
 
 struct LargestDistance {  // from each source
   const float* distance;  // n x s

@@ -1,0 +1,50 @@
+// The heavy operations on one analysed surface: the CPU does them with the stages of this library, a device with those of its module.
+// Results agree to rounding; tests/compute compares them.
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "analysis/stage_seconds.h"
+#include "base/matrix.h"
+#include "base/parallel.h"
+#include "model/landmark_model.h"
+#include "spectrum/eigenbasis.h"
+#include "spectrum/functional_map.h"
+
+namespace focal {
+
+struct SurfaceAnalysis;
+
+// Immutable, thread-safe. A device's engine throws BackendFailure; the caller then starts anew on the CPU (with_fallback).
+class Engine {
+ public:
+  virtual ~Engine() = default;
+
+  virtual Eigenbasis spectrum(const SurfaceAnalysis& analysis, const EigenParams& params,
+                              const Execution& execution) const = 0;
+  // Of the samples; after the spectrum, which gave the basis.
+  virtual RowMatrixf descriptors(const SurfaceAnalysis& analysis, const Eigenbasis& basis,
+                                 const Execution& execution) const = 0;
+  // Votes of the first samples, one row of features each: vertices x landmarks.
+  virtual RowMatrixf votes(const SurfaceAnalysis& analysis, const LandmarkModel& model,
+                           const RowMatrixf& features, const Execution& execution,
+                           StageSeconds& seconds) const = 0;
+  // Of these votes, which are the last that were cast: up to `count` vertices a landmark, the best first, each outside the connected
+  // balls of this radius round the better ones.
+  virtual std::vector<std::vector<int32_t>> peaks(const SurfaceAnalysis& analysis, const RowMatrixf& votes,
+                                                  int32_t count, double radius,
+                                                  const Execution& execution) const = 0;
+  // See analysis/isoline_votes.h.
+  virtual RowMatrixf isoline_votes(const SurfaceAnalysis& analysis, const RowMatrixf& radii,
+                                   const Execution& execution) const = 0;
+  // See spectrum/functional_map.h. `to` holds the eigenfunctions of the analysed surface.
+  virtual FunctionalMap zoom_out(const SpectralSamples& from, const SpectralTargets& to,
+                                 PlacesBetween initial, const MapParams& params) const = 0;
+
+  virtual bool is_device() const = 0;
+};
+
+// One for all surfaces.
+std::shared_ptr<const Engine> cpu_engine();
+
+}  // namespace focal

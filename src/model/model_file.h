@@ -1,0 +1,19 @@
+// A model as bytes: the .focal file. docs/model-format.md describes it.
+#pragma once
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "model/landmark_model.h"
+
+namespace focal {
+
+std::vector<std::byte> serialise(const LandmarkModel& model);
+
+// Believes nothing: a model that comes back can be used without further checks.
+// Throws invalid_file (not a model, truncated, damaged, contradictory) and unsupported_version.
+// parts: whether it may have parts with models of their own (see DetailModel), as those themselves may not.
+enum class PartsOfModel { allowed, refused };
+LandmarkModel parse_model(std::span<const std::byte> file, PartsOfModel parts = PartsOfModel::allowed);
+
+}  // namespace focal
