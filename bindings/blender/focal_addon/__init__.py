@@ -25,7 +25,7 @@ glTF2ImportUserExtension = landmark_exchange.LandmarksOfFile
 def register():
     for module in _MODULES:
         module.register()
-    # A missing library must not keep the add-on from being switched on: its preferences are where it is mended.
+    # The add-on must be usable without the library: its preferences are where the user fixes the path.
     if not engine.ready():
         print(f"focal: {engine.problem()}")
 

@@ -51,7 +51,7 @@ class RigTarget(Target):
 
 
     def is_of_rigs(self):
-        """Whether rigged characters taught the model: its landmarks are its own, which say little."""
+        """Whether the model was trained on rigged characters: its landmarks are derived, so the list need not show them."""
         model = self.model()
         return bool(model.joint_names) and model.skeleton_template is None
 

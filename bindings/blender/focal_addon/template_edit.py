@@ -40,7 +40,7 @@ def _parents_first(joints):
     while left:
         ready = [joint for joint in left if not joint.parent or joint.parent in known]
         if not ready:
-            raise Unusable(f"'{left[0].name}' hangs on '{left[0].parent}', which is no joint above it")
+            raise Unusable(f"The parent of '{left[0].name}', '{left[0].parent}', is not a joint above it")
         done += ready
         known.update(joint.name for joint in ready)
         left = [joint for joint in left if joint.name not in known]

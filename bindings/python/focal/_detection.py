@@ -195,7 +195,7 @@ class Detection(Handle):
 
     def segment(self, method: _abi.Segmentation | str = "auto", *, task: Task | None = None,
                 on_progress: Progress | None = None) -> Labels:
-        """(triangle_count,) labels, -1 where there is none.
+        """(triangle_count,) labels; -1: no label.
 
         method  "skeleton": the joint that moves a triangle most (numbers of Model.joint_names); "geodesic": the
                 landmark nearest along the surface (numbers of landmarks); "k_means": clusters that start at the
@@ -234,10 +234,10 @@ class Detection(Handle):
         names              "as_trained" (default), "vrm", "mixamo", "unreal", "rigify", "unity", "rigify_metarig"
         joint_names        names of your own: {name in the model: yours}, or one (or None) for each joint in order
         animations         a rigged character, loaded from glTF, whose animations Skeleton.write puts in
-        rest_pose          the pose that the file shows: "mesh" (default), "teachers" (True): the rest pose of those that taught the
-                           model, "t": the same with level arms, "a": with arms 45 degrees below the level
-        symmetric          joints and weights become mirror images where the mesh stands alike on both sides; else bones of both
-                           sides get the same length, with a warning
+        rest_pose          the pose that the file shows: "mesh" (default), "teachers" (True): the rest pose of the training
+                           characters, "t": the same with level arms, "a": with arms 45 degrees below the level
+        symmetric          joints and weights become mirror images if the mesh is symmetric; otherwise bones of both sides get
+                           the same length, with a warning
         max_influences     joints that move one vertex, 1 to 8 (default 4)
         skeleton_template  a skeleton of your own over the landmarks, as JSON text or as a mapping
         fixed_joints       {name in the model or template: (x, y, z)}: joints that are known, as after a correction by hand. They
@@ -246,7 +246,7 @@ class Detection(Handle):
         drop_helpers       without twist bones and helpers (recognised by their names); the joints above get what they moved
 
         Error: INVALID_ARGUMENT (no template, and the model was not learned of rigged characters; fewer than three
-        landmarks found), INVALID_FILE (the template is no JSON); Cancelled.
+        landmarks found), INVALID_FILE (the template is not JSON); Cancelled.
         """
         character = None if animations is None else handle_of(animations, Mesh, "animations")
         params = skeleton_params(self._joint_names, names=names, joint_names=joint_names, animations=character,

@@ -32,8 +32,8 @@ def read_landmarks(path: str | os.PathLike[str]) -> dict[str, Mark]:
 
 
 def write_landmarks(path: str | os.PathLike[str], marks: Mapping[str, Mark], *, mesh: str = "") -> None:
-    """Writes marks of one mesh, by name, as read_landmarks reads them; the end of the path says which kind of file. mesh: the name of its
-    file, for people. ValueError: another ending; a mark that is no position in a .csv; OSError."""
+    """Writes marks of one mesh, by name, as read_landmarks reads them; the suffix of the path chooses the format. mesh: the name of its
+    file, for readers. ValueError: another suffix; a mark without a position in a .csv. OSError."""
     name = os.fsdecode(path)
     lower = name.lower()
     if lower.endswith(".csv"):

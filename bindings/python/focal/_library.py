@@ -36,7 +36,7 @@ def _find() -> str:
     named = os.environ.get("FOCAL_LIBRARY")
     if named:
         if not os.path.isfile(named):
-            raise LibraryError(f"FOCAL_LIBRARY names {named!r}, which is no file.\n"
+            raise LibraryError(f"FOCAL_LIBRARY names {named!r}, which is not a file.\n"
                                "Set it to the full path of focal's shared library, or unset it.")
         return named
     package = pathlib.Path(__file__).resolve().parent

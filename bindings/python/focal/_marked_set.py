@@ -99,7 +99,7 @@ class MarkedSet:
                    {key: value for key, value in document.items() if key not in known})
 
     def save(self) -> None:
-        """Writes set.json; the folder is made where there is none. OSError."""
+        """Writes set.json, and makes the folder if it does not exist. OSError."""
         self._place.mkdir(parents=True, exist_ok=True)
         document = {"name": self.name or self._place.resolve().name, "landmark_names": self.landmark_names, "mirror": self.mirror,
                     **self.splits, **self.others}

@@ -65,7 +65,7 @@ class Mesh(Handle):
     task               cancels the work on a large mesh, see focal.Task
 
     Blocks of numbers may be NumPy arrays, anything NumPy takes, buffers such as array.array, or sequences; flat ones
-    are read three numbers at a time. Raises TypeError and ValueError for what is no such block; Error with
+    are read three numbers at a time. Raises TypeError and ValueError for any other value; Error with
     Status.INVALID_MESH (no triangles, a vertex number out of range, NaN) or MESH_TOO_SMALL.
 
     Vertex and triangle numbers in all results are those given here.

@@ -54,10 +54,10 @@ class Task(Handle):
 
 
 def run(work: Callable[[Any], Result], task: Task | None, on_progress: Progress | None) -> Result:
-    """work(task handle), a long call, with progress told and Ctrl-C heard.
+    """Runs work(task handle), a long call, reports progress and responds to Ctrl-C.
 
     Python runs neither callbacks nor signal handlers inside a C call. So on the main thread, or when progress is to be
-    told, the call runs on a thread of its own while this one waits.
+    reported, the call runs on a separate thread while this one waits.
     """
     if task is not None and not isinstance(task, Task):
         raise TypeError(f"task must be a focal.Task, not {type(task).__name__}")

@@ -107,9 +107,9 @@ class TrainingSet(Handle):
             call("focal_training_set_set_skeleton", self._handle, None if given is None else text(given, "skeleton_template"))
 
     def check(self) -> list[str]:
-        """What is odd about the rigged characters, in sentences that number them from 1: joints that some of them lack,
-        prefixes of names that were put aside, weights that are no numbers, joints all in one place. Model.train learns
-        from them all the same. A set with landmark names has nothing odd.
+        """Warnings about the rigged characters, as sentences that number them from 1: joints that some of them lack,
+        ignored name prefixes, weights that are not numbers, joints all in one place. Model.train still learns from
+        these characters. A set with landmark names has no warnings.
 
         Error: INVALID_ARGUMENT (no character, or characters that share fewer than half of their joints).
         """
