@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "command_error.h"
+#include "files.h"
 #include "marked_mesh.h"
 #include "output.h"
 #include "parameters.h"
