@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""focal for Blender: mark a few points on some meshes, learn them, find them on new ones, and rig those."""
+"""focal for Blender: rigs characters, and finds landmarks learned from some marked meshes."""
 bl_info = {
     "name": "focal",
     "description": "Learn landmarks and rigs from a few meshes, find them on others",

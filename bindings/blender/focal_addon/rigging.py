@@ -78,7 +78,7 @@ def template_of(settings):
 
 
 class FOCAL_OT_rig(JobOperator, bpy.types.Operator):
-    """Give the selected meshes, as one character, an armature with weights. Landmarks are detected first where they are not yet.
+    """Make an armature with weights for the selected meshes, as one character. Landmarks are detected first if necessary.
 Esc cancels"""
     bl_idname = "focal.rig"
     bl_label = "Rig"

@@ -15,8 +15,8 @@ from ._values import Mark, SurfacePoint
 
 def read_landmarks(path: str | os.PathLike[str]) -> dict[str, Mark]:
     """The marks of a landmark file, .landmarks.json or .csv, as TrainingSet.add takes them: a SurfacePoint, a vertex number, a
-    position (x, y, z), or None where the file calls the landmark absent. `focal convert` makes such files of other programs'.
-    ValueError, which names the file: not such a file, a landmark without a place, a name that is there twice; OSError."""
+    position (x, y, z), or None where the file calls the landmark absent. `focal convert` makes such files from those of other programs.
+    ValueError, which names the file: not such a file, a landmark without a place, a duplicate name; OSError."""
     name = os.fsdecode(path)
     try:
         text = pathlib.Path(name).read_text(encoding="utf-8-sig")

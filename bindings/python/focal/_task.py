@@ -15,7 +15,7 @@ POLL_SECONDS = 0.05
 
 
 class Task(Handle):
-    """Hand one to a long call (task=...), then poll or cancel it from any thread.
+    """Pass one to a long call (task=...), then poll or cancel it from any thread.
 
     It serves one call at a time; a second one meanwhile raises Error with Status.INVALID_ARGUMENT. A cancelled task
     stays cancelled until reset(), so a cancel just before the call starts is not lost.
@@ -34,7 +34,7 @@ class Task(Handle):
         call("focal_task_cancel", self._handle)
 
     def reset(self) -> None:
-        """Back to progress 0 and not cancelled. Error with Status.INVALID_ARGUMENT while a call runs with it."""
+        """Resets to progress 0 and not cancelled. Error with Status.INVALID_ARGUMENT while a call runs with it."""
         call("focal_task_reset", self._handle)
 
     @property
@@ -44,7 +44,7 @@ class Task(Handle):
 
     @property
     def stage(self) -> str:
-        """What is being done: "spectrum", ...; "" before."""
+        """The current stage: "spectrum", ...; "" before the start."""
         return (library().focal_task_stage(self._handle) or b"").decode()
 
     @property
