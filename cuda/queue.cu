@@ -119,7 +119,7 @@ int32_t CudaQueue::open(int32_t index, char* name, int32_t name_size) {
   queue.launch(1, Probe{probe.data()});
   queue.invert(probe.data(), 1);
   probe.download(&result, 1);
-  if (result != 0.25) fail(true, std::string(properties.name) + " reckons wrongly");
+  if (result != 0.25) fail(true, std::string(properties.name) + " computes wrong results");
   std::snprintf(name, static_cast<size_t>(name_size), "%s, %.0f GiB", properties.name,
                 static_cast<double>(properties.totalGlobalMem) / (1 << 30));
   return index;

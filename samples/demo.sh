@@ -1,13 +1,13 @@
 #!/bin/sh
-# The whole way: installs what is missing, builds what is needed, makes a stock model of few characters, and with it rigs and animates
-# characters never seen; then learns the landmarks of ten characters, finds them on others, and measures.
-# Fails where fewer than half of the rigs can be used, above 1.5 edges of mean error, or with a left/right flip.
+# The full demo: installs dependencies, builds, trains a small stock model, and uses it to rig and animate characters that it has not
+# seen; then learns the landmarks of ten characters, finds them on others, and measures the errors.
+# Fails if fewer than half of the rigs are usable, if the mean error is above 1.5 edges, or if left and right are exchanged.
 set -eu
 cd "$(dirname "$0")/.."
 bin=build/release
 out=build/demo
-teachers=12  # of the stock model here; all that samples/stock/make.sh has are better, and take minutes more
-unseen="10 3 5 9"  # that come out well; docs/accuracy.md has what happens on all kinds
+teachers=12  # training characters of the stock model here; samples/stock/make.sh uses more, which is better but takes minutes
+unseen="10 3 5 9"  # characters that work well; docs/accuracy.md has the results on all kinds
 animation=stretch  # of a sample character
 dancer=$out/characters/game_humanoid/game_humanoid_05.rig.glb
 worst_mean=1.5
@@ -30,14 +30,14 @@ make_characters() {
 
 character() { printf '%s/characters/game_humanoid/game_humanoid_%02d.glb' "$out" "$1"; }
 
-put_rigs_on() {  # a rig whose verdict is failed is written all the same, to be looked at
+put_rigs_on() {  # a rig whose verdict is failed is written too, for inspection
   for number in $unseen; do
     "$bin"/bindings/cli/focal rig humanoid "$(character "$number")" -o "$out/rigged_$number.glb" --animations "$dancer" --quiet \
       --keep-failed --json > "$out/rigged_$number.json" || [ -s "$out/rigged_$number.glb" ]
   done
 }
 
-draw_rigs() {  # the skeletons above, the first of them moving below
+draw_rigs() {  # the skeletons above, the animation of the first below
   for number in $unseen; do printf '%s,%s,,5,25\n' "$out/rigged_$number.glb" "$out/rigged_$number.json"; done > "$out/panels"
   for second in 0 0.4 0.7 1; do printf '%s,,%s s,5,25,%s,%s\n' "$out/rigged_${unseen%% *}.glb" "$second" "$animation" "$second"; done >> "$out/panels"
   tr '\n' '\0' < "$out/panels" | xargs -0 "$bin"/samples/picture/focal_picture --columns 4 "$out/rigged.svg"
@@ -56,7 +56,7 @@ find_on() {  # the first character of the test split
   "$bin"/samples/picture/focal_picture "$out/landmarks.svg" "$found.glb,$out/found.landmarks.json,,10"
 }
 
-value() {  # KEY FILE: of a top-level key of a report
+value() {  # KEY FILE: the value of a top-level key of a report
   sed -n "s/^ \"$1\": \"\{0,1\}\([^,\"]*\)\"\{0,1\},\{0,1\}\$/\1/p" "$2"
 }
 
@@ -83,7 +83,7 @@ mkdir -p "$out"
 step "install missing packages" .ci/bootstrap.sh
 step "build the command and the sample programs" build
 step "make a stock model of $teachers characters" make_stock
-step "make characters that it has not seen" make_characters
+step "make characters for testing" make_characters
 step "rig and animate four of them" put_rigs_on
 step "draw them" draw_rigs
 step "learn the landmarks of ten characters" learn
@@ -92,12 +92,12 @@ step "write and draw one character's landmarks" find_on
 
 print_times
 failed=0
-echo "Rigs of characters never seen, by a stock model of $teachers characters (samples/stock/make.sh makes the whole one, of 60):"
+echo "Rigs of unseen characters, by a stock model of $teachers characters (samples/stock/make.sh makes the full one, of 60):"
 report_rigs || failed=1
-echo "Landmarks of characters never seen:"
+echo "Landmarks of unseen characters:"
 report_landmarks || failed=1
 [ $failed -eq 0 ] || echo "NOT GOOD ENOUGH"
 echo
-echo "Look at:"
+echo "Results:"
 for file in rigged.svg "rigged_${unseen%% *}.glb" landmarks.svg found.glb found.landmarks.json; do echo "  $out/$file"; done
 exit $failed

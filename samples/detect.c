@@ -1,5 +1,5 @@
-/* All that a detection tells: places, how sure they are, the second-best place, warnings, and where the time
- * went; writes the mesh's file with the landmarks in it.
+/* Prints everything in a detection: places, confidences, the second-best place, warnings, and the time of each
+ * stage; writes the mesh's file with the landmarks in it.
  * usage: detect MODEL MESH.glb OUT.glb */
 #include <focal/focal.h>
 #include <stdio.h>

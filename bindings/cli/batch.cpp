@@ -1,4 +1,4 @@
-// focal batch: a model put to every mesh of a folder; what is there already is not done again, what fails stops nothing.
+// focal batch: runs a model on every mesh in a folder. Existing results are kept, and a mesh that fails does not stop the others.
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
@@ -87,7 +87,7 @@ Json process(const Context& context, const focal_model* model, const fs::path& f
   return entry;
 }
 
-// How many rigs of each verdict were made now.
+// How many rigs of each verdict this run made.
 Json verdict_counts(const Json& list) {
   Json counts = {{"good", 0}, {"check", 0}, {"failed", 0}};
   for (const Json& entry : list)
@@ -121,7 +121,7 @@ void print_report(const BatchOptions& options, const Json& list, const std::vect
   std::cout << done << " done, " << kept << " there already, " << failed << " failed\n";
   if (!others.empty())
     std::cout << others.size() << " other file" << (others.size() == 1 ? "" : "s")
-              << " skipped, which are no .glb, .gltf or .vrm: " << others[0].filename().string()
+              << " skipped, not .glb, .gltf or .vrm: " << others[0].filename().string()
               << (others.size() > 1 ? ", ..." : "") << "\n";
   if (options.rig)
     std::cout << "rigs: " << verdicts["good"] << " good, " << verdicts["check"] << " to check, "
@@ -149,7 +149,7 @@ void batch(const BatchOptions& options) {
         entry.update(process(context, model.get(), files[i], target, options, task));
         failed += entry["status"] == "failed";
       } catch (const CommandError& problem) {
-        if (focal_task_is_cancelled(task)) throw CommandError("cancelled", "run it again to go on");
+        if (focal_task_is_cancelled(task)) throw CommandError("cancelled", "run it again to resume");
         entry["status"] = "failed", entry["error"] = problem.what(), entry["hint"] = problem.hint, ++failed;
       }
     }
@@ -159,28 +159,27 @@ void batch(const BatchOptions& options) {
   print_report(options, list, others, kept, failed);
   if (failed > 0)
     throw CommandError(std::to_string(failed) + " of " + std::to_string(files.size()) + " meshes failed",
-                       "the others are done; run it again after mending those");
+                       "the others are done; fix the failed ones and run it again");
 }
 
 }  // namespace
 
 void add_batch(CLI::App& app) {
   CLI::App* verb =
-      app.add_subcommand("batch", "Put a model to every mesh of a folder; goes on where it stopped");
+      app.add_subcommand("batch", "Run a model on every mesh in a folder; resumes interrupted runs");
   const auto options = std::make_shared<BatchOptions>();
   add_model_argument(*verb, options->model);
   verb->add_option("FOLDER", options->input, "Folder with .glb and .gltf files")->type_name("")->required();
-  verb->add_option(
-          "-o,--output", options->output,
-          "Folder for the results, each under the name of its mesh; those that exist are not made again")
+  verb->add_option("-o,--output", options->output,
+                   "Folder for the results, each named like its mesh; existing results are kept")
       ->type_name("FOLDER")
       ->required();
-  CLI::Option* rig = verb->add_flag("--rig", options->rig,
-                                    "Also a skeleton and skin weights: needs a model of rigged characters");
+  CLI::Option* rig = verb->add_flag(
+      "--rig", options->rig, "Also add a skeleton and skin weights; needs a model of rigged characters");
   verb->add_flag("--keep-failed", options->keep_failed,
-                 "With --rig: write a file even where the verdict is 'failed'")
+                 "With --rig: write a file even if the verdict is 'failed'")
       ->needs(rig);
-  verb->add_option("--shard", options->shard, "Only part I of N of the files, to share the work")
+  verb->add_option("--shard", options->shard, "Process only part I of N of the files, to share the work")
       ->type_name("I/N");
   add_quality_option(*verb, options->quality);
   add_mesh_options(*verb, *options);

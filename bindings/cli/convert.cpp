@@ -31,7 +31,7 @@ void convert_to_wrap(const ConvertOptions& options) {
                 {"triangles", to.triangle_count},
                 {"analysed", analysed}});
   if (!options.prints_text()) return;
-  std::cout << options.out << ": the closed surface round " << options.in << ", " << to.triangle_count
+  std::cout << options.out << ": the closed surface around " << options.in << ", " << to.triangle_count
             << " triangles; the mesh is analysed " << (from.is_wrapped ? "so" : "as it is, not so") << "\n";
 }
 
@@ -39,7 +39,7 @@ void convert(const ConvertOptions& options) {
   if (is_gltf(options.in) && is_gltf(options.out)) return convert_to_wrap(options);
   if (options.lenient || options.keep_scenery || options.surface != FOCAL_SURFACE_AUTO)
     throw CommandError("--lenient, --surface and --keep-scenery are for meshes",
-                       "leave them out where landmark files are converted");
+                       "leave them out when you convert landmark files");
   const LandmarkFormat target = landmark_format_of(options.out);
   check_output_folder(options.out);
   const LandmarkFile file = read_landmark_file(options.in);
@@ -63,10 +63,10 @@ void add_convert(CLI::App& app) {
   CLI::App* verb = app.add_subcommand("convert",
                                       "Convert landmark files: .landmarks.json, 3D Slicer's .mrk.json and "
                                       ".fcsv, .csv, MeshLab's .pp; or write the "
-                                      "closed surface round a mesh: CHARACTER.glb WRAP.glb");
+                                      "closed surface around a mesh: CHARACTER.glb WRAP.glb");
   const auto options = std::make_shared<ConvertOptions>();
   verb->add_option("IN", options->in, "Landmark file or mesh to read")->type_name("")->required();
-  verb->add_option("OUT", options->out, "File to write; its ending chooses the format")
+  verb->add_option("OUT", options->out, "File to write; its suffix chooses the format")
       ->type_name("")
       ->required();
   add_mesh_options(*verb, *options);

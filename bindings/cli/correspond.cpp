@@ -81,7 +81,7 @@ void correspond(const CorrespondOptions& options) {
 }  // namespace
 
 void add_correspond(CLI::App& app) {
-  CLI::App* verb = app.add_subcommand("correspond", "Find which point of one mesh is which of another");
+  CLI::App* verb = app.add_subcommand("correspond", "Find corresponding points of two meshes");
   const auto options = std::make_shared<CorrespondOptions>();
   add_model_argument(*verb, options->model);
   verb->add_option("A", options->from, "glTF file: each of its landmarks or vertices ...")
@@ -89,7 +89,7 @@ void add_correspond(CLI::App& app) {
       ->required();
   verb->add_option("B", options->to, "glTF file: ... gets a point of this one")->type_name("")->required();
   verb->add_option("-o,--output", options->output, "File to write")->type_name("OUT.json")->required();
-  verb->add_flag("--dense", options->dense, "Also a point for every vertex of A");
+  verb->add_flag("--dense", options->dense, "Also find a point for every vertex of A");
   add_quality_option(*verb, options->quality);
   add_mesh_options(*verb, *options);
   add_common_options(*verb, *options);

@@ -131,13 +131,13 @@ void cross_validate(const CrossValidationOptions& options) {
 
 void add_cross_validate(CLI::App& app) {
   CLI::App* verb =
-      app.add_subcommand("cross-validate", "Train and evaluate in turn on one set, no mesh in both");
+      app.add_subcommand("cross-validate", "Train on one part of a set and evaluate on the rest, in turn");
   const auto options = std::make_shared<CrossValidationOptions>();
   verb->add_option("SET", options->set, "Folder with set.json, NAME.glb and NAME.landmarks.json")
       ->type_name("")
       ->required();
   verb->add_option("--folds", options->folds,
-                   "Parts to leave out in turn; without it one mesh each, at most 10 parts")
+                   "Number of parts to leave out in turn; default: one mesh each, up to 10 parts")
       ->type_name("K")
       ->check(CLI::Range(2, 1000000).description(""));
   add_split_options(*verb, options->split, options->limit, "Meshes to use");

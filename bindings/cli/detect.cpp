@@ -166,7 +166,8 @@ void add_detect(CLI::App& app) {
           "Landmarks to write: .landmarks.json, .mrk.json, .fcsv, .csv or .pp; .glb or .gltf: the mesh's "
           "own file with a node at each landmark")
       ->type_name("OUT");
-  verb->add_option("--votes", options->votes, "Vote maps to write, as vertex colours")->type_name("OUT.glb");
+  verb->add_option("--votes", options->votes, "Vote maps to write, as vertex colours (glTF)")
+      ->type_name("OUT.glb");
   add_quality_option(*verb, options->quality);
   add_mesh_options(*verb, *options);
   add_common_options(*verb, *options);

@@ -55,8 +55,8 @@ void print_diagnosis(const Json& report) {
 }  // namespace
 
 void add_doctor(CLI::App& app) {
-  CLI::App* verb =
-      app.add_subcommand("doctor", "Show version, backend and why, threads, stock models and limits");
+  CLI::App* verb = app.add_subcommand(
+      "doctor", "Show version, backend and the reason for it, threads, stock models and limits");
   const auto options = std::make_shared<CommonOptions>();
   add_common_options(*verb, *options, false);
   verb->callback([options] {

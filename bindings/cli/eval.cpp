@@ -108,8 +108,9 @@ void add_eval(CLI::App& app) {
       ->required();
   add_split_options(*verb, options->split, options->limit, "Meshes to measure on");
   add_subset_option(*verb, options->subset);
-  verb->add_option("--report", options->report,
-                   "Page to write: meshes to turn with marks and vote maps, tables, curves; opens offline")
+  verb->add_option(
+          "--report", options->report,
+          "Report page to write: interactive meshes with marks and vote maps, tables, curves; opens offline")
       ->type_name("OUT.html");
   add_quality_option(*verb, options->quality);
   add_mesh_options(*verb, *options);

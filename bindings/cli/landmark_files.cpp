@@ -58,7 +58,7 @@ Landmark landmark_of(const Json& entry) {
   }
   if (!mark.vertex && !mark.position && !mark.surface && !mark.absent()) {
     throw CommandError("landmark '" + mark.name + "' has no vertex, no triangle and no position",
-                       "give one of them, or leave a landmark out that the mesh lacks");
+                       "give one of them, or remove the landmark if the mesh lacks it");
   }
   return mark;
 }
@@ -81,7 +81,7 @@ LandmarkFormat landmark_format_of(const std::string& path) {
   if (has_ending(path, ".fcsv")) return LandmarkFormat::slicer_fcsv;
   if (has_ending(path, ".csv")) return LandmarkFormat::csv;
   if (has_ending(path, ".pp")) return LandmarkFormat::meshlab;
-  throw CommandError("the ending of '" + path + "' names no landmark format",
+  throw CommandError("the ending of '" + path + "' has no suffix of a landmark format",
                      "use .landmarks.json, .mrk.json, .fcsv, .csv or .pp");
 }
 
@@ -100,7 +100,7 @@ LandmarkFile parse_own_json(std::string_view text) {
 }
 
 std::string format_own_json(const LandmarkFile& file) {
-  // One landmark a line: such files are read, compared and mended by people.
+  // One landmark per line: people read, compare and edit such files.
   std::string text =
       "{\n \"format\": \"focal-landmarks\", \"version\": 1, \"mesh\": " + Json(file.mesh).dump() +
       ",\n \"landmarks\": [";

@@ -10,7 +10,7 @@ namespace focal_cli {
 namespace {
 
 int run(int argc, char** argv) {
-  CLI::App app("Mark a few points on about ten meshes, learn them, find them on new meshes.", "focal");
+  CLI::App app("Rig characters, and find landmarks learned from about ten marked meshes.", "focal");
   app.set_version_flag("--version", std::string("focal ") + focal_version_string());
   app.failure_message(CLI::FailureMessage::simple);
   app.require_subcommand(1);

@@ -104,7 +104,7 @@ void add_model_argument(CLI::App& verb, std::string& path_or_name) {
 }
 
 void add_models(CLI::App& app) {
-  CLI::App* verb = app.add_subcommand("models", "List the stock models, which are used by name");
+  CLI::App* verb = app.add_subcommand("models", "List the stock models, which you use by name");
   const auto options = std::make_shared<CommonOptions>();
   add_common_options(*verb, *options);
   verb->callback([options] { models(*options); });

@@ -26,15 +26,15 @@ void add_mesh_options(CLI::App& verb, MeshOptions& options) {
   add_lenient_option(verb, options);
   add_choice(
       verb, "--surface", options.surface,
-      "What is analysed: the mesh as it is, or one closed surface round all of its parts; auto: wrapped "
-      "where it has "
-      "several parts",
+      "What to analyse: the mesh as it is, or one closed surface around all of its parts; auto: wrapped if "
+      "it "
+      "has several parts",
       "auto|as-is|wrapped",
       {{"auto", FOCAL_SURFACE_AUTO}, {"as-is", FOCAL_SURFACE_AS_IS}, {"wrapped", FOCAL_SURFACE_WRAPPED}});
   verb.add_flag(
       "--keep-scenery", options.keep_scenery,
-      "Analyse all of the file: also hidden nodes, a ground, a backdrop, an enclosing shape and parts that "
-      "stand apart, which are left out otherwise");
+      "Also analyse hidden nodes, a ground, a backdrop, an enclosing shape and parts that stand apart, "
+      "which are left out by default");
 }
 
 void add_common_options(CLI::App& verb, CommonOptions& options, bool makes_choices) {
@@ -42,15 +42,14 @@ void add_common_options(CLI::App& verb, CommonOptions& options, bool makes_choic
   const auto unsigned_only = [](std::string& text) {
     return text.starts_with('-') ? "'" + text + "' is negative" : std::string();
   };
-  verb.add_flag("--json", options.json, "Print one JSON document on stdout, nothing else")->group("Common");
-  verb.add_flag("--quiet", options.quiet, "Print nothing but errors (and the JSON, if asked for)")
-      ->group("Common");
-  verb.add_option("--threads", options.threads, "Threads to use; 0: one a core")
+  verb.add_flag("--json", options.json, "Print only one JSON document on stdout")->group("Common");
+  verb.add_flag("--quiet", options.quiet, "Print only errors (and the JSON, with --json)")->group("Common");
+  verb.add_option("--threads", options.threads, "Threads to use; 0: one per core")
       ->type_name("N")
       ->check(CLI::Range(0, 1024).description(""))
       ->group("Common");
   verb.add_option("--memory-budget", options.memory_budget,
-                  "Fail rather than hold more memory than this, as 500MB or 2GB; 0: no limit")
+                  "Fail instead of holding more memory than this, such as 500MB or 2GB; 0: no limit")
       ->type_name("SIZE")
       ->transform(CLI::AsSizeValue(false).description(""))
       ->group("Common");
@@ -58,7 +57,7 @@ void add_common_options(CLI::App& verb, CommonOptions& options, bool makes_choic
              {{"auto", FOCAL_BACKEND_AUTO}, {"cpu", FOCAL_BACKEND_CPU}, {"cuda", FOCAL_BACKEND_CUDA}});
   verb.get_option("--backend")->group("Common");
   if (!makes_choices) return;
-  verb.add_option("--seed", options.seed, "Of all random choices: same seed, same result")
+  verb.add_option("--seed", options.seed, "Seed of all random choices; the same seed gives the same result")
       ->type_name("N")
       ->check(CLI::Validator(unsigned_only, ""))
       ->group("Common");

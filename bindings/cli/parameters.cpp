@@ -19,7 +19,7 @@ void add_named_choice(CLI::App& verb, const std::string& option, int32_t& value,
 }  // namespace
 
 void add_train_options(CLI::App& verb, TrainOptions& options) {
-  add_choice(verb, "--preset", options.preset, "default: measures best; paper: Xia et al. 2016 to the letter",
+  add_choice(verb, "--preset", options.preset, "default: most accurate; paper: exactly as in Xia et al. 2016",
              "default|paper", {{"default", FOCAL_PRESET_DEFAULT}, {"paper", FOCAL_PRESET_PAPER}});
   verb.add_option("--trees", options.trees, "Trees in each forest")
       ->type_name("N")
@@ -27,18 +27,17 @@ void add_train_options(CLI::App& verb, TrainOptions& options) {
   verb.add_option("--eigenpairs", options.eigenpairs, "Eigenpairs of the Laplacian")
       ->type_name("N")
       ->check(CLI::Range(8, 2000).description(""));
-  verb.add_option("--sampling-rate", options.sampling_rate,
-                  "Share of each mesh's vertices that is learned from")
+  verb.add_option("--sampling-rate", options.sampling_rate, "Share of each mesh's vertices to learn from")
       ->type_name("X")
       ->check(CLI::Range(1e-6, 1.0).description(""));
   verb.add_option("--proxy", options.proxy_vertices,
-                  "Analyse larger meshes on a decimated copy of about so many vertices; 0: as they are")
+                  "Analyse larger meshes on a decimated copy of about N vertices; 0: as they are")
       ->type_name("N")
       ->check(CLI::Range(0, 10000000).description(""));
-  add_named_choice(verb, "--descriptor", options.descriptor, "What describes the surroundings of a point",
+  add_named_choice(verb, "--descriptor", options.descriptor, "Descriptor of the surroundings of a point",
                    focal_descriptor_count(), focal_descriptor_name);
   add_named_choice(verb, "--distance", options.distance,
-                   "What distances are; those that are not geodesic with preset paper only",
+                   "Kind of distance; kinds that are not geodesic work only with preset paper",
                    focal_distance_count(), focal_distance_name);
 }
 
@@ -59,7 +58,7 @@ void add_split_options(CLI::App& verb, std::string& split, size_t& limit, const 
   verb.add_option("--split", split, what + ": train, test, extra or all")
       ->type_name("NAME")
       ->capture_default_str();
-  verb.add_option("--limit", limit, "Only the first N meshes")
+  verb.add_option("--limit", limit, "Use only the first N meshes")
       ->type_name("N")
       ->check(CLI::Range(1, 1000000000).description(""));
 }

@@ -229,7 +229,7 @@ void rig(const RigOptions& options) {
 
 void add_rig(CLI::App& app) {
   CLI::App* verb =
-      app.add_subcommand("rig", "Give a mesh the skeleton and skin weights of a model's characters");
+      app.add_subcommand("rig", "Add the skeleton and skin weights of a model's characters to a mesh");
   const auto options = std::make_shared<RigOptions>();
   verb->add_option(
           "MODEL", options->model,
@@ -241,55 +241,57 @@ void add_rig(CLI::App& app) {
       ->type_name("OUT.glb")
       ->required();
   verb->add_option("--names", options->names,
-                   "What bones are called: vrm, mixamo, unreal, rigify, rigify-metarig, unity, godot, or a "
-                   "JSON file of the "
-                   "model's joint names and yours; without it as on the characters")
+                   "Names of the bones: vrm, mixamo, unreal, rigify, rigify-metarig, unity, godot, or a JSON "
+                   "file that "
+                   "maps the model's joint names to yours; default: as on the training characters")
       ->type_name("NAMES");
   verb->add_option(
           "--template", options->skeleton_template,
-          "A skeleton of your own over the model's landmarks, see docs/rigs.md; without it that of the "
+          "Your own skeleton over the model's landmarks, see docs/rigs.md; default: that of the training "
           "characters")
       ->type_name("FILE.json");
-  verb->add_flag("--symmetric", options->symmetric,
-                 "Joints and weights become exact mirror images where the mesh stands alike on both sides; "
-                 "else bones of "
-                 "both sides get the same length");
-  verb->add_option("--influences", options->influences, "joints that move one vertex, at most (default 4)")
+  verb->add_flag(
+      "--symmetric", options->symmetric,
+      "Make joints and weights exact mirror images if the mesh is symmetric; otherwise bones of both sides "
+      "get the same length");
+  verb->add_option("--influences", options->influences,
+                   "Maximum number of joints that move one vertex (default 4)")
       ->check(CLI::Range(1, 8));
-  verb->add_flag("--rest-pose", options->rest_pose,
-                 "Show the mesh in the rest pose of the first character that taught the model, by its new "
-                 "joints: --pose teachers");
+  verb->add_flag(
+      "--rest-pose", options->rest_pose,
+      "Same as --pose teachers: show the mesh in the rest pose of the model's first training character");
   add_choice(*verb, "--pose", options->pose,
-             "The pose that the file shows, by the new joints: that of the mesh (the default), the teachers' "
-             "rest pose, the same with level arms (t) or with arms 45 degrees below the level (a)",
+             "The pose that the file shows: that of the mesh (default), the training characters' rest pose "
+             "(teachers), the same with level arms (t) or with arms 45 degrees below level (a)",
              "mesh|teachers|t|a",
              {{"mesh", FOCAL_POSE_OF_MESH},
               {"teachers", FOCAL_POSE_OF_TEACHERS},
               {"t", FOCAL_POSE_T},
               {"a", FOCAL_POSE_A}});
   verb->get_option("--pose")->excludes("--rest-pose");
-  verb->add_flag(
-      "--drop-helpers", options->drop_helpers,
-      "Without the twist bones and helpers of the model's characters; the joints above get what they moved");
+  verb->add_flag("--drop-helpers", options->drop_helpers,
+                 "Omit twist bones and helpers of the training characters; their parent joints take over "
+                 "what they moved");
   verb->add_flag("--ground-root", options->ground_root,
-                 "One more joint on the ground, above all others, as engines expect it");
+                 "Add a root joint on the ground above all others, as engines expect it");
   verb->add_option(
           "--vrm", options->vrm,
           "Write a VRM 1.0 avatar, with its meta data from a JSON file: {\"name\": ..., \"authors\": [...]}")
       ->type_name("META.json");
   verb->add_option("--pin", options->pins,
-                   "Where a joint lies, of the model's names, in the mesh's units; others follow. May be "
+                   "Fix the position of a joint (the model's name for it), in the mesh's units; the others "
+                   "follow. May be "
                    "given several times")
       ->type_name("NAME=X,Y,Z")
       ->allow_extra_args(false);
-  verb->add_flag("--keep-skeleton", options->keep_skeleton,
-                 "Weights only, without a model: focal rig --keep-skeleton MESH -o OUT. The joints of the "
-                 "mesh's own skin stay "
-                 "to the bit");
+  verb->add_flag(
+      "--keep-skeleton", options->keep_skeleton,
+      "Compute weights only, without a model: focal rig --keep-skeleton MESH -o OUT. The joints of the "
+      "mesh's own skin stay bit-identical");
   verb->add_flag("--keep-failed", options->keep_failed,
-                 "Write the file even where the verdict is 'failed'; the exit status is 1 all the same");
+                 "Write the file even if the verdict is 'failed'; the exit status is still 1");
   verb->add_option("--animations", options->animations,
-                   "Rigged character whose animations go into the file too, retargeted")
+                   "Rigged character whose animations are retargeted and added to the file")
       ->type_name("CHARACTER.glb");
   add_quality_option(*verb, options->quality);
   add_mesh_options(*verb, *options);

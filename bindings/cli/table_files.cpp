@@ -25,7 +25,7 @@ Landmark landmark_of(const Cells& cells) {
   return mark;
 }
 
-// A table as its first line has it: columns in small letters; a label is a name where there is none.
+// The columns of a table, from its first line, in lower case; a column "label" serves as the name if there is no column "name".
 struct Table {
   char separator = ',';
   std::vector<std::string> columns;

@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "command_error.h"
+#include "files.h"
 #include "marked_mesh.h"
 #include "output.h"
 #include "parameters.h"
@@ -143,17 +144,16 @@ void add_train(CLI::App& app) {
   const auto options = std::make_shared<TrainingOptions>();
   verb->add_option("SET", options->set, "Folder with set.json, NAME.glb and NAME.landmarks.json")
       ->type_name("");
-  CLI::Option* rigs =
-      verb->add_option("--rigs", options->rigs,
-                       "Instead of SET: rigged characters of one skeleton, .glb; one is enough. Learns their "
-                       "skeleton and skin "
-                       "weights for 'focal rig', with landmarks that follow from them")
-          ->type_name("A.glb B.glb ...");
+  CLI::Option* rigs = verb->add_option("--rigs", options->rigs,
+                                       "Instead of SET: rigged characters with one skeleton, .glb; one is "
+                                       "enough. Learns their skeleton and "
+                                       "skin weights for 'focal rig', and landmarks derived from them")
+                          ->type_name("A.glb B.glb ...");
   verb->add_option("-o,--output", options->output, "Model file to write")->type_name("MODEL")->required();
   add_split_options(*verb, options->split, options->limit, "Meshes to learn from");
   verb->add_option("--template", options->skeleton_template,
-                   "A skeleton over the set's landmarks, which the model then carries for 'focal rig'; "
-                   "docs/rigs.md describes it")
+                   "A skeleton over the set's landmarks, stored in the model for 'focal rig'; docs/rigs.md "
+                   "describes it")
       ->type_name("FILE.json");
   for (const char* of_sets : {"--split", "--limit", "--template"})
     if (CLI::Option* option = verb->get_option_no_throw(of_sets)) option->excludes(rigs);

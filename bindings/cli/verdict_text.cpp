@@ -30,15 +30,14 @@ std::string verdict_hint(const RigVerdict& verdict) {
   constexpr double foreign = 0.1;  // category fit
   if (verdict.verdict == FOCAL_VERDICT_GOOD) return "";
   if (verdict.category_fit < foreign)
-    return "the mesh is unlike the model's characters: use a model of its category, or teach characters like "
+    return "the mesh is unlike the training characters: use a model of its category, or train on characters "
+           "like "
            "it too";
   if (verdict.guessed_joints > 0)
-    return "mark the points that were not found (fixed points in Python, C and Blender), or teach more "
-           "characters "
-           "like this one";
-  return "look at it; mark points that lie wrong (fixed points in Python, C and Blender), or teach more "
-         "characters "
-         "like this one";
+    return "mark the points that were not found (fixed points in Python, C and Blender), or train on more "
+           "characters like this one";
+  return "look at it; mark points that are wrong (fixed points in Python, C and Blender), or train on more "
+         "characters like this one";
 }
 
 void add_verdict(Json& report, const RigVerdict& verdict) {

@@ -1,4 +1,4 @@
-// Fig. 2, descriptors of a spoiled shape, and Fig. 3, symmetric points and symmetry planes.
+// Fig. 2, descriptors of a damaged shape, and Fig. 3, symmetric points and symmetry planes.
 #include <algorithm>
 #include <cmath>
 
@@ -76,7 +76,7 @@ std::string descriptors(const Study& study) {
                     fixed(change(values[0], values[2], dimension), 2)});
   }
   return section(
-      "Fig. 2: descriptors of one point, spoiled",
+      "Fig. 2: descriptors of one point on damaged shapes",
       "Noise of 0.3 mean edges in every coordinate, and 60 holes of one vertex. The table has the mean "
       "change of 200 points over how far two points of the clean shape differ: at 1 nothing is left.",
       "spin images and shape contexts count area, not vertices, in a neighbourhood of 0.2 "

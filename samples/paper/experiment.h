@@ -48,7 +48,7 @@ focal::Model learn(const focal::Context& context, const Set& set, const Recipe& 
 struct Question {
   std::string landmark;
   picture::Point truth;  // where it is marked
-  double edge = 1;       // errors are told in this length
+  double edge = 1;       // unit of the errors
 };
 
 picture::Point place_of(const Marked& marked, const std::string& landmark);

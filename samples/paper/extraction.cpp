@@ -82,7 +82,7 @@ std::string few_marks(const Study& study) {
       "many people, tens to hundreds of marks a shape, and find what people agree on: mostly tips. Here the "
       "share of the points of all kinds that lie within 5 mean edges of their marks on shapes not trained "
       "on; the pictures above are the probabilities.",
-      "Schelling points are not computed anew: their method predicts where people click, not which of the "
+      "Schelling points are not recomputed: their method predicts where people click, not which of the "
       "points is which, so it has no error for a point by name.",
       chart("share found", "training shapes, one mark each", "", curves) + table(rows));
 }

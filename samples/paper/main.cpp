@@ -1,4 +1,4 @@
-// focal_paper [--quick] OUT.html SET...: the paper's tables and figures made anew, both presets, in one page of its own.
+// focal_paper [--quick] OUT.html SET...: reproduces the paper's tables and figures with both presets, in one page.
 // The first set is asked every question, so are other humans; the rest have tables, planes and Figs. 8, 9, 12 and 13.
 #include <chrono>
 #include <cstdio>

@@ -109,7 +109,7 @@ std::string regression(const Study& study) {
   }
   return section(
       "Fig. 5: regressed distances",
-      "What the forests tell of the sample points of the test shape, and the truth.",
+      "Distances of the sample points of the test shape as the forests regress them, and true distances.",
       "preset paper learns shares of each point's largest distance, preset default lengths over "
       "sqrt(area), so their numbers cannot be compared; the mean of its leaves is shown, but it votes "
       "with all they hold: far from a landmark with a mirror image they hold two distances.",

@@ -25,7 +25,7 @@ th:first-child, td:first-child { text-align: left; }
 </style></head><body>
 <h1>The experiments of Xia et al. 2016</h1>
 <p>Q. Xia, S. Li, H. Qin, A. Hao, <i>Automatic Extraction of Generic Focal Features on 3D Shapes via Random Forest Regression
-Analysis of Geodesics-in-Heat</i>, 2016: its tables and figures made anew with the method to the letter (preset <b>paper</b>) and
+Analysis of Geodesics-in-Heat</i>, 2016: its tables and figures reproduced with the exact method (preset <b>paper</b>) and
 with the one that measures best (preset <b>default</b>), side by side. No test shape was trained on.
 Votes: none <span class="ramp"></span> most. <span class="marked"></span> marked by hand, <span class="found"></span> found.
 Numbers in captions are errors in mean edge lengths of the test mesh.</p>

@@ -1,6 +1,6 @@
 #!/bin/sh
-# The tables and figures of Xia et al. 2016 made anew in build/paper/index.html, presets paper and default side by side: of the
-# sample characters, and of real meshes where FOCAL_EVALUATION_DATA (or ../shared/data) has them.
+# Reproduces the tables and figures of Xia et al. 2016 in build/paper/index.html, presets paper and default side by side: on the
+# sample characters, and on real meshes where FOCAL_EVALUATION_DATA (or ../shared/data) has them.
 # usage: run.sh [--quick] [SET...]      sets of your own instead; --quick: sample characters and few shapes, two minutes instead of twenty
 set -eu
 cd "$(dirname "$0")/../.."

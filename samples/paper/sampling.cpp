@@ -55,7 +55,7 @@ std::string by_rate(const Study& study) {
   }
   return section(
       "Fig. 7 a: how much of each training shape is sampled",
-      "Mean square error of the distances that a model tells of the test shape's sample points.",
+      "Mean square error of the distances that a model regresses for the test shape's sample points.",
       "preset default keeps distributions, and their mean, shown here, is no better for more samples: where "
       "a landmark has a mirror image it lies between two distances (see Fig. 5).",
       charts);

@@ -62,7 +62,8 @@ std::string performance(const std::vector<Study>& studies) {
       "On " + std::to_string(studies.front().context.thread_count()) +
           " threads; as printed: on a 3.4 GHz Core i7 and a GeForce GTX 780, human 12.5K, teddy 12.5K, "
           "lion 5K, ant 7.5K, hand 8.7K vertices.",
-      "forests and geodesics of all landmarks of a set together, where the paper tells of one point; the "
+      "forests and geodesics of all landmarks of a set together, where the paper gives those of one point; "
+      "the "
       "descriptors include the eigenpairs; no graphics card is used; geodesics are solved where they are "
       "used, so with preset paper those of a detection count to the voting.",
       table(rows));

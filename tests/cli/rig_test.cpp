@@ -236,7 +236,7 @@ TEST_CASE("info and convert: what is analysed, and the wrap to look at") {
   CHECK(wrap["boundary_loops"] == 0);
   CHECK(wrap["triangles"] == report["triangles"]);
   const Run words = focal("convert " + mesh + " " + (scratch / "wrap.glb"));
-  CHECK(words.out.find("closed surface round") != std::string::npos);
+  CHECK(words.out.find("closed surface around") != std::string::npos);
   check_fails("convert " + mesh + " " + (scratch / "wrap.gltf"), ".glb");
 }
 

@@ -75,7 +75,7 @@ class Found(Loading):
             self.assertIn(str(place), text)
         self.fails(folder, "was not found", "import focal; focal.Mesh([(0, 0, 0)], [(0, 0, 0)])")
         self.assertEqual(self.python(folder, "import focal; print(focal.__version__)").returncode, 0)
-        self.fails(folder, "FOCAL_LIBRARY names .*which is no file", FOCAL_LIBRARY=str(folder / "none.so"))
+        self.fails(folder, "FOCAL_LIBRARY names .*which is not a file", FOCAL_LIBRARY=str(folder / "none.so"))
 
     def test_a_path_of_the_hosts_own(self):
         folder = self.copied(with_library=False)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""focal for Blender: mark a few points on some meshes, learn them, find them on new ones, and rig those."""
+"""focal for Blender: rigs characters, and finds landmarks learned from some marked meshes."""
 bl_info = {
     "name": "focal",
     "description": "Learn landmarks and rigs from a few meshes, find them on others",
@@ -25,7 +25,7 @@ glTF2ImportUserExtension = landmark_exchange.LandmarksOfFile
 def register():
     for module in _MODULES:
         module.register()
-    # A missing library must not keep the add-on from being switched on: its preferences are where it is mended.
+    # The add-on must be usable without the library: its preferences are where the user fixes the path.
     if not engine.ready():
         print(f"focal: {engine.problem()}")
 

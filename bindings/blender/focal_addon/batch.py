@@ -10,8 +10,8 @@ from .templates import TemplateError
 
 
 class FOCAL_OT_batch(JobOperator, bpy.types.Operator):
-    """Detect landmarks on every mesh of the collection, and rig it where that is ticked. What cannot be done is told
-at the end and does not stop the others. Esc cancels"""
+    """Detect landmarks on every mesh of the collection, and rig it if that is ticked. Meshes that fail are reported at
+the end and do not stop the others. Esc cancels"""
     bl_idname = "focal.batch"
     bl_label = "Run on Collection"
     bl_options = {"REGISTER", "UNDO"}

@@ -8,7 +8,7 @@ from .rigging import write_weights
 
 
 class FOCAL_OT_bind(JobOperator, bpy.types.Operator):
-    """Give the selected meshes, as one character, weights for the bones of their armature, which stay where they are. No model is needed.
+    """Compute weights of the selected meshes, as one character, for the bones of their armature, which stay in place. Needs no model.
 Esc cancels"""
     bl_idname = "focal.bind"
     bl_label = "Weights Only"

@@ -10,7 +10,7 @@ from .model_files import file_of, model_path
 
 
 class FOCAL_OT_resolve(JobOperator, bpy.types.Operator):
-    """Look for the landmarks again; those set or accepted by hand stay, and the others are chosen to suit them. Esc
+    """Find the landmarks again; those set or accepted by hand stay, and the others are chosen to be consistent with them. Esc
 cancels"""
     bl_idname = "focal.resolve"
     bl_label = "Re-solve"

@@ -110,7 +110,7 @@ class Target:
                 _detections.popitem(last=False)
 
     def objects(self):
-        """The meshes as they are now; Unusable when they are not those that were looked at."""
+        """The meshes as they are now; Unusable if they changed since the detection."""
         objects = [object_named(surface.name) for surface in self.character.surfaces]
         for obj, surface in zip(objects, self.character.surfaces):
             if Surface(obj).key() != surface.key():
@@ -205,7 +205,7 @@ def _write_runner_up(mark, target, number, place):
 
 
 class FOCAL_OT_show_votes(JobOperator, bpy.types.Operator):
-    """Colour the mesh by where the model looked for the active landmark: red is where most votes fell, dark blue where none did"""
+    """Colour the mesh by the model's votes for the active landmark: red for most votes, dark blue for none"""
     bl_idname = "focal.show_votes"
     bl_label = "Vote Map"
     bl_options = {"REGISTER", "UNDO"}
@@ -244,7 +244,7 @@ class FOCAL_OT_show_votes(JobOperator, bpy.types.Operator):
 
 
 class FOCAL_OT_next_uncertain(bpy.types.Operator):
-    """Go to the next landmark that the model is not sure of"""
+    """Go to the next uncertain landmark"""
     bl_idname = "focal.next_uncertain"
     bl_label = "Next Uncertain"
     bl_options = {"REGISTER", "UNDO"}

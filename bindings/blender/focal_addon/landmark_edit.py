@@ -74,19 +74,19 @@ class FOCAL_OT_landmark_remove(LandmarkOperator, bpy.types.Operator):
 
 
 class FOCAL_OT_landmark_unplace(LandmarkOperator, bpy.types.Operator):
-    """Take the place of this landmark away"""
+    """Remove the place of this landmark"""
     bl_idname = "focal.landmark_unplace"
     bl_label = "Clear Place"
 
     absent: BoolProperty(name="Absent", options={"SKIP_SAVE"},
-                         description="This mesh does not have it: it is passed over")
+                         description="This mesh does not have it: training skips it")
 
     def change(self, context, obj):
         landmark_data.unplace(_active(obj), "ABSENT" if self.absent else "UNPLACED", by_hand=True)
 
 
 class FOCAL_OT_landmark_cursor(Correction, bpy.types.Operator):
-    """Place the active landmark where the surface is nearest to the 3D cursor"""
+    """Place the active landmark at the surface point nearest to the 3D cursor"""
     bl_idname = "focal.landmark_cursor"
     bl_label = "Place at Cursor"
 
@@ -99,7 +99,7 @@ class FOCAL_OT_landmark_cursor(Correction, bpy.types.Operator):
 
 
 class FOCAL_OT_landmark_snap(Correction, bpy.types.Operator):
-    """Bring landmarks back onto the surface: after the mesh was edited, or to where their empties were moved"""
+    """Snap landmarks to the surface after the mesh was edited, or to where you moved their empties"""
     bl_idname = "focal.landmark_snap"
     bl_label = "Snap to Surface"
 
@@ -131,7 +131,7 @@ class FOCAL_OT_landmark_next(LandmarkOperator, bpy.types.Operator):
 
 
 class FOCAL_OT_landmark_accept(Correction, bpy.types.Operator):
-    """This place is right: keep it as if it was marked by hand. Of use where a model found it"""
+    """Accept the place that a model found: keep it like a mark made by hand"""
     bl_idname = "focal.landmark_accept"
     bl_label = "Accept"
 
@@ -156,7 +156,7 @@ def may_accept(mark):
 
 
 class FOCAL_OT_landmark_runner_up(LandmarkOperator, bpy.types.Operator):
-    """Use the second-best place that the model found; again: back"""
+    """Use the second-best place that the model found; press again to go back"""
     bl_idname = "focal.landmark_runner_up"
     bl_label = "Second Best"
 
@@ -177,7 +177,7 @@ class FOCAL_OT_landmark_runner_up(LandmarkOperator, bpy.types.Operator):
 
 
 class FOCAL_OT_landmark_mirror_names(LandmarkOperator, bpy.types.Operator):
-    """Add the names of the other side: elbow.L brings elbow.R, LeftHand brings RightHand"""
+    """Add the names of the other side: elbow.R for elbow.L, RightHand for LeftHand"""
     bl_idname = "focal.landmark_mirror_names"
     bl_label = "Add Other Side"
 
@@ -189,7 +189,7 @@ class FOCAL_OT_landmark_mirror_names(LandmarkOperator, bpy.types.Operator):
 
 
 class FOCAL_OT_landmark_copy_names(LandmarkOperator, bpy.types.Operator):
-    """Bring the names of the first training mesh to this one, to be placed here"""
+    """Copy the names of the first training mesh to this one, to be placed here"""
     bl_idname = "focal.landmark_copy_names"
     bl_label = "Names of the Training Meshes"
 

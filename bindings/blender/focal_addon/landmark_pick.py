@@ -13,8 +13,8 @@ _running = False  # one at a time: a second one would take the first one's click
 
 
 class FOCAL_OT_landmark_pick(bpy.types.Operator):
-    """Click on the mesh to place the active landmark and go on to the next one without a place. The view is turned as ever.
-Backspace takes the last one back, Tab passes over, Esc or the right button ends"""
+    """Click on the mesh to place the active landmark and go on to the next one without a place. The view can be turned as usual.
+Backspace undoes the last click, Tab skips a landmark, Esc or the right button ends"""
     bl_idname = "focal.landmark_pick"
     bl_label = "Place by Clicking"
     bl_options = {"REGISTER", "UNDO"}

@@ -29,9 +29,9 @@ class FocalPreferences(bpy.types.AddonPreferences):
     threads: IntProperty(name="Threads", min=0, max=1024, default=0,
                          description="Threads that work; 0: one less than there are processors, so that Blender stays quick")
     backend: EnumProperty(name="Backend", items=(
-        ("AUTO", "Automatic", "The fastest that works"),
+        ("AUTO", "Automatic", "The fastest available"),
         ("CPU", "CPU", "The processor"),
-        ("CUDA", "CUDA", "An NVIDIA GPU where there is one, else the processor")))
+        ("CUDA", "CUDA", "An NVIDIA GPU if there is one, otherwise the processor")))
 
     def draw(self, _context):
         layout = self.layout

@@ -16,7 +16,7 @@ STATUS_ICON = {item[0]: item[3] for item in STATUS}
 STATUS_NAME = {item[0]: item[1] for item in STATUS}
 
 BONE_NAMES = (
-    ("AS_TRAINED", "Own", "The names of the characters that taught the model"),
+    ("AS_TRAINED", "Own", "The names of the training characters"),
     ("VRM", "VRM", "hips, leftUpperArm"),
     ("MIXAMO", "Mixamo", "mixamorig:Hips, mixamorig:LeftArm"),
     ("UNREAL", "Unreal", "pelvis, upperarm_l"),
@@ -99,15 +99,15 @@ class FocalName(bpy.types.PropertyGroup):
 class FocalJoint(bpy.types.PropertyGroup):
     """A joint of a skeleton template, see docs/rigs.md."""
     name: StringProperty(name="Name", description="Of the bone; .L and .R, or left and right, distinguish the sides")
-    parent: StringProperty(name="Parent", description="The joint that it hangs on; empty: a root")
+    parent: StringProperty(name="Parent", description="The joint's parent; empty: a root")
     kind: EnumProperty(name="Lies", items=(
-        ("CENTRE", "Inside", "In the middle of the limb under its landmarks, at the mean of these places"),
+        ("CENTRE", "Inside", "In the middle of the limb below its landmarks, at the mean of these places"),
         ("SURFACE", "Middle", "In the middle of its landmarks"),
         ("BETWEEN", "Between", "On the line between two landmarks or joints")))
-    places: CollectionProperty(type=FocalName, description="Landmarks, or joints where it lies between two")
+    places: CollectionProperty(type=FocalName, description="Landmarks, or for a joint between two places also joints")
     share: FloatProperty(name="Share", min=0, max=1, default=0.5, subtype="FACTOR",
-                         description="How far it lies on the way from the first place to the second, from 0 to 1")
-    tip: StringProperty(name="Tip", description="The landmark where its bone ends; empty: the bone goes on to the skin")
+                         description="Position between the first place (0) and the second (1)")
+    tip: StringProperty(name="Tip", description="The landmark where its bone ends; empty: the bone extends to the skin")
 
 
 class FocalScene(bpy.types.PropertyGroup):
@@ -117,13 +117,13 @@ class FocalScene(bpy.types.PropertyGroup):
         ("MARKS", "Marks", "Landmarks that you marked"),
         ("RIGS", "Rigs", "Skeletons and weights of rigged characters; no marks are needed")))
     quality: EnumProperty(name="Training", default="FULL", items=(
-        ("FULL", "Full", "Most accurate, with confidences that mean something"),
+        ("FULL", "Full", "Most accurate, with calibrated confidences"),
         ("DRAFT", "Draft", "A few times faster, to try something; every confidence is about one half")))
     model_path: StringProperty(name="Model", subtype="FILE_PATH", default=DEFAULT_MODEL,
                                description="The name of a stock model, or a file (.focal) that training writes and detection "
                                            "reads")
     search: EnumProperty(name="Search", items=(
-        ("BEST", "Best", "With the slower refinements: a second or two for a mesh"), ("INTERACTIVE", "Quick", "About half the time")))
+        ("BEST", "Best", "With the slower refinements: a second or two per mesh"), ("INTERACTIVE", "Quick", "About half the time")))
     resolve: BoolProperty(
         name="Re-solve after each correction", default=True,
         description="When a landmark of a detected mesh is set or accepted by hand, look for the others again")
@@ -135,35 +135,35 @@ class FocalScene(bpy.types.PropertyGroup):
                                 description="Write each landmark's name beside it")
     empties: BoolProperty(name="Empties", update=update_empties,
                           description="Also make an empty at each landmark, a child of the mesh: for constraints and for export. "
-                                      "Without the tick there are none")
+                                      "Without it, empties are removed")
     keep_votes: BoolProperty(name="Keep vote map",
-                             description="Vote maps become a colour attribute, for materials and export; else they are only drawn")
+                             description="Store vote maps as a colour attribute, for materials and export; otherwise they are only drawn")
     bone_names: EnumProperty(name="Names", items=BONE_NAMES, description="Names of the bones")
     ground_root: BoolProperty(name="Root on the ground",
-                              description="One more bone on the ground, above all others, as engines expect it")
+                              description="Add a root bone on the ground above all others, as engines expect it")
     rig_landmarks: BoolProperty(name="Show landmarks", description="Also list the landmarks that a model of rigs looks for: "
                                                                    "to correct them by hand")
     symmetric: BoolProperty(name="Symmetric", description="Bones of the left and right side get the same length")
     template_path: StringProperty(name="Skeleton", subtype="FILE_PATH",
-                                  description="A skeleton of your own over the model's landmarks, as a JSON file; empty: "
-                                              "that of the characters that taught the model")
+                                  description="Your own skeleton over the model's landmarks, as a JSON file; empty: "
+                                              "that of the training characters")
     joints: CollectionProperty(type=FocalJoint, description="A skeleton for models of marks; empty: the template that suits their "
                                                             "landmarks")
     joint_active: IntProperty(name="Active joint")
     choose: BoolProperty(name="Choose Landmarks", description="Tick landmarks in the list, to make joints of them")
-    replace_rig: BoolProperty(name="Replace", description="Take the old armature's modifier and weights off first")
+    replace_rig: BoolProperty(name="Replace", description="Remove the old armature's modifier and weights first")
     segmentation: EnumProperty(name="Parts", items=(
-        ("AUTO", "Automatic", "By the skeleton where the model has one, else by the nearest landmark"),
+        ("AUTO", "Automatic", "By the skeleton if the model has one, otherwise by the nearest landmark"),
         ("GEODESIC", "Nearest landmark", "The landmark nearest along the surface"),
         ("SKELETON", "Skeleton", "The joint that moves it most"),
         ("K_MEANS", "Clusters", "Clusters of place and heat kernel signature that start at the landmarks")))
     parts_as_groups: BoolProperty(name="Vertex groups", default=True, description="One vertex group for each part")
     parts_as_colours: BoolProperty(name="Colours", default=True, description="Parts as a colour attribute")
-    batch: PointerProperty(type=bpy.types.Collection, name="Collection", description="Every mesh of it is worked on")
+    batch: PointerProperty(type=bpy.types.Collection, name="Collection", description="Process every mesh of this collection")
     batch_together: BoolProperty(name="One character", description="The meshes of the collection are the parts of one character: "
-                                                                   "one armature; else each is worked on by itself")
+                                                                   "one armature; otherwise each is processed on its own")
     batch_rig: BoolProperty(name="Rig too", description="Also give each mesh its armature and weights")
-    report: StringProperty(description="What the last run over a collection left out, and why")
+    report: StringProperty(description="What the last run over a collection skipped, and why")
 
 
 CLASSES = (FocalLandmark, FocalTrainingMesh, FocalObject, FocalLandmarkError, FocalName, FocalJoint, FocalScene)

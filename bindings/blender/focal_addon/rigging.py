@@ -51,7 +51,7 @@ class RigTarget(Target):
 
 
     def is_of_rigs(self):
-        """Whether rigged characters taught the model: its landmarks are its own, which say little."""
+        """Whether the model was trained on rigged characters: its landmarks are derived, so the list need not show them."""
         model = self.model()
         return bool(model.joint_names) and model.skeleton_template is None
 
@@ -78,7 +78,7 @@ def template_of(settings):
 
 
 class FOCAL_OT_rig(JobOperator, bpy.types.Operator):
-    """Give the selected meshes, as one character, an armature with weights. Landmarks are detected first where they are not yet.
+    """Make an armature with weights for the selected meshes, as one character. Landmarks are detected first if necessary.
 Esc cancels"""
     bl_idname = "focal.rig"
     bl_label = "Rig"

@@ -98,7 +98,7 @@ def _give_collections(data, chains):
 
 
 class FOCAL_OT_rigify_bind(bpy.types.Operator):
-    """Let the rig that Rigify generated move the meshes of the metarig: their weights go to its deforming bones. Again after each
+    """Move the weights of the metarig's meshes to the deforming bones of the rig that Rigify generated. Repeat it after each
 Generate"""
     bl_idname = "focal.rigify_bind"
     bl_label = "Move by Generated Rig"

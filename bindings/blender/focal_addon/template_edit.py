@@ -40,7 +40,7 @@ def _parents_first(joints):
     while left:
         ready = [joint for joint in left if not joint.parent or joint.parent in known]
         if not ready:
-            raise Unusable(f"'{left[0].name}' hangs on '{left[0].parent}', which is no joint above it")
+            raise Unusable(f"The parent of '{left[0].name}', '{left[0].parent}', is not a joint above it")
         done += ready
         known.update(joint.name for joint in ready)
         left = [joint for joint in left if joint.name not in known]
@@ -71,8 +71,8 @@ class JointOperator(LandmarkOperator):
 
 
 class FOCAL_OT_joint_add(JointOperator, bpy.types.Operator):
-    """Make a joint from the chosen landmarks, below the active joint: one: in the middle of the limb under it; two: between them; more:
-in their middle"""
+    """Make a joint from the chosen landmarks, as a child of the active joint. One landmark: in the middle of the limb below it; two:
+between them; more: at their centre"""
     bl_idname = "focal.joint_add"
     bl_label = "Joint from Landmarks"
 
@@ -92,7 +92,7 @@ in their middle"""
 
 
 class FOCAL_OT_joint_remove(JointOperator, bpy.types.Operator):
-    """Remove the active joint; those below it go to its parent"""
+    """Remove the active joint; its children go to its parent"""
     bl_idname = "focal.joint_remove"
     bl_label = "Remove Joint"
 
@@ -197,7 +197,7 @@ class FOCAL_OT_joint_show(JointOperator, bpy.types.Operator):
 
 
 class FOCAL_OT_joint_take(JointOperator, bpy.types.Operator):
-    """Take over bones that were dragged: each joint then lies between the two places whose line comes nearest to it"""
+    """Apply the dragged bones: each moved joint is placed between the two landmarks whose line comes nearest to it"""
     bl_idname = "focal.joint_take"
     bl_label = "Take Over Bones"
 

@@ -17,8 +17,8 @@ _MOST_FOLDS = 10
 
 
 class FOCAL_OT_training_add(bpy.types.Operator):
-    """Add the selected meshes to the training list. Those that make one character together, such as body, clothes and eyes with marks
-of their own, get one row"""
+    """Add the selected meshes to the training list. Meshes that form one character, such as body, clothes and eyes with different
+marks, get one row"""
     bl_idname = "focal.training_add"
     bl_label = "Add Selected"
     bl_options = {"REGISTER", "UNDO"}
@@ -65,7 +65,7 @@ def characters(objects):
 
 
 class FOCAL_OT_training_remove(bpy.types.Operator):
-    """Take a mesh off the training list; the mesh itself stays"""
+    """Remove a mesh from the training list; the mesh itself stays"""
     bl_idname = "focal.training_remove"
     bl_label = "Remove"
     bl_options = {"REGISTER", "UNDO"}
@@ -205,8 +205,8 @@ def _work_on_rigs(context, path, options, run_context):
 
 
 class FOCAL_OT_cross_validate(JobOperator, bpy.types.Operator):
-    """Learn from all meshes of the list but some, find the landmarks on those, and measure how far off they are,
-in turn. Takes several times as long as training. Esc cancels"""
+    """Train on most meshes of the list, find the landmarks on the others, and measure the errors, in turn. Takes several times
+as long as training. Esc cancels"""
     bl_idname = "focal.cross_validate"
     bl_label = "Measure Errors"
     bl_options = {"REGISTER", "UNDO"}
@@ -215,7 +215,7 @@ in turn. Takes several times as long as training. Esc cancels"""
         engine.focal()
         meshes, names = marked_meshes(context)
         if len(meshes) < 3:
-            raise Unusable("Three marked meshes are needed: one is left out, two teach")
+            raise Unusable("Three marked meshes are needed: one is left out, two are for training")
         options, run_context = parameters(context), engine.context()
         options["learn_confidence"] = False  # the places are measured, not what the model says of them
         return lambda job: cross_validate(meshes, names, options, run_context, job)

@@ -32,7 +32,7 @@ def show(context, obj, surface, colours):
 
 
 def shown(obj):
-    """The map of an object, None where there is none or the mesh has other vertices now."""
+    """The map of an object; None without a map, or if the mesh has other vertices now."""
     found = _maps.get(obj.name) if obj is not None and obj.type == "MESH" else None
     return found if found is not None and len(found.positions) == len(obj.data.vertices) else None
 
@@ -70,7 +70,7 @@ def _draw_one(obj, found):
 
 
 class FOCAL_OT_hide_votes(bpy.types.Operator):
-    """Take the vote map off, and the colour attribute where one was kept"""
+    """Hide the vote map, and remove the colour attribute if it was kept"""
     bl_idname = "focal.hide_votes"
     bl_label = "Hide Vote Map"
     bl_options = {"REGISTER", "UNDO"}

@@ -1,11 +1,11 @@
-"""focal: mark a few points on about ten meshes, learn them, find them on new meshes.
+"""focal: rigs characters, and finds landmarks on meshes after training on about ten marked ones.
 
     import focal
     model = focal.Model.load("animal.focal")
     for landmark in model.detect(focal.Mesh.load("cat.glb")):
         print(landmark.name, landmark.position, landmark.confidence)
 
-The package stands on focal's shared library through ctypes and needs nothing else; with NumPy, blocks of numbers
+The package calls focal's shared library through ctypes and needs nothing else; with NumPy, blocks of numbers
 come as arrays. Positions and lengths are in the units of your mesh; vertex and triangle numbers are those of your mesh,
 from 0. All objects but TrainingSet may be used by any number of threads at once; calls let other Python threads run.
 """

@@ -36,9 +36,9 @@ class Context(Handle):
     thread_count  threads that one call may use, 0..1024; None or 0: one a core. Results are the same for any number
     backend       focal.Backend or its name: "auto", "cpu", "cuda"
     device_index  of the GPU, from 0
-    memory_budget_bytes  calls fail with Status.OUT_OF_MEMORY rather than let the library hold more than this in the process;
+    memory_budget_bytes  calls fail with Status.OUT_OF_MEMORY instead of letting the library hold more than this in the process;
                   None or 0: no budget
-    models_folder  a folder of stock models of your own, looked at before the others (see focal.stock_models)
+    models_folder  a folder of your own stock models, searched before the others (see focal.stock_models)
     log           log(level: focal.LogLevel, message: str), called while a focal call runs, on the thread that runs it,
                   which may not be the one that made the call. It must not raise
     """

@@ -36,7 +36,7 @@ class Correspondence(Handle):
         return array.array("I", [p.triangle for p in room]), plain
 
     def carry(self, values: Any) -> Floats:
-        """Values of the target's vertices, (m,) or (m, k) numbers, carried over to the source's, (n,) or (n, k) floats;
+        """Values of the target's vertices, (m,) or (m, k) numbers, transferred to the source's, (n,) or (n, k) floats;
         0 where no triangle uses a vertex. carry(target.vertices) is where each source vertex goes."""
         width = _width(values)
         given = block_of(values, "values", "f", width)

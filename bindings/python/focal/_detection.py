@@ -1,4 +1,4 @@
-"""Landmarks found on one mesh, and what follows from them."""
+"""Landmarks found on one mesh, and results derived from them."""
 from __future__ import annotations
 
 import ctypes
@@ -72,8 +72,8 @@ def _landmark_of(struct: _abi.focal_landmark, origin: Any) -> Landmark:
 
 
 class Detection(Handle):
-    """The landmarks that a Model found on a Mesh, in the order of the model's names. It never changes.
-    It can be pickled: landmarks, info, warnings go along, and model and mesh, of which the rest is made again when it is asked for.
+    """The landmarks that a Model found on a Mesh, in the order of the model's names. It is immutable.
+    It can be pickled, with landmarks, info, warnings, model and mesh; everything else is computed again when you ask for it.
 
         for landmark in detection: print(landmark.name, landmark.position, landmark.confidence)
         detection["nose"].triangle
@@ -152,12 +152,12 @@ class Detection(Handle):
 
     @property
     def category_fit(self) -> float:
-        """0..1: does this mesh belong to the model's category at all."""
+        """0..1: how far this mesh belongs to the model's category."""
         return float(self.info["category_fit"])
 
     @property
     def seconds(self) -> dict[str, float]:
-        """Wall time of each stage; "total": all of them and what lies between."""
+        """Wall time of each stage; "total": all of them and the time between."""
         if self._kept:
             return dict(self._kept["seconds"])
         seconds = new(_abi.focal_stage_seconds)
@@ -195,11 +195,11 @@ class Detection(Handle):
 
     def segment(self, method: _abi.Segmentation | str = "auto", *, task: Task | None = None,
                 on_progress: Progress | None = None) -> Labels:
-        """(triangle_count,) labels, -1 where there is none.
+        """(triangle_count,) labels; -1: no label.
 
         method  "skeleton": the joint that moves a triangle most (numbers of Model.joint_names); "geodesic": the
                 landmark nearest along the surface (numbers of landmarks); "k_means": clusters that start at the
-                landmarks; "auto": skeleton where the model has one, else geodesic
+                landmarks; "auto": skeleton if the model has one, otherwise geodesic
         """
         chosen, room = choice(_abi.Segmentation, method, "method"), empty("i", self.info["triangle_count"])
         handle = self._handle
@@ -229,24 +229,24 @@ class Detection(Handle):
             skeleton_template: str | Mapping[str, Any] | None = None,
             fixed_joints: Mapping[str, Sequence[float]] | None = None, ground_root: bool | None = None,
             drop_helpers: bool | None = None, task: Task | None = None, on_progress: Progress | None = None) -> Skeleton:
-        """Joints and skin weights for this mesh, in the pose that it has. About a second.
+        """Joints and skin weights for this mesh, in its current pose. Takes about a second.
 
         names              "as_trained" (default), "vrm", "mixamo", "unreal", "rigify", "unity", "rigify_metarig"
-        joint_names        names of your own: {name in the model: yours}, or one (or None) for each joint in order
-        animations         a rigged character, loaded from glTF, whose animations Skeleton.write puts in
-        rest_pose          the pose that the file shows: "mesh" (default), "teachers" (True): the rest pose of those that taught the
-                           model, "t": the same with level arms, "a": with arms 45 degrees below the level
-        symmetric          joints and weights become mirror images where the mesh stands alike on both sides; else bones of both
-                           sides get the same length, with a warning
+        joint_names        your own names: {name in the model: yours}, or one (or None) for each joint in order
+        animations         a rigged character, loaded from glTF, whose animations Skeleton.write adds
+        rest_pose          the pose that the file shows: "mesh" (default), "teachers" (True): the rest pose of the training
+                           characters, "t": the same with level arms, "a": with arms 45 degrees below the level
+        symmetric          joints and weights become mirror images if the mesh is symmetric; otherwise bones of both sides get
+                           the same length, with a warning
         max_influences     joints that move one vertex, 1 to 8 (default 4)
-        skeleton_template  a skeleton of your own over the landmarks, as JSON text or as a mapping
-        fixed_joints       {name in the model or template: (x, y, z)}: joints that are known, as after a correction by hand. They
-                           lie there to the bit; the others follow, less the farther along the bones
-        ground_root        one more joint, "root", first and above all others, on the ground
-        drop_helpers       without twist bones and helpers (recognised by their names); the joints above get what they moved
+        skeleton_template  your own skeleton over the landmarks, as JSON text or as a mapping
+        fixed_joints       {name in the model or template: (x, y, z)}: known joints, such as corrections by hand. They
+                           stay exactly there; the others follow, less so with distance along the bones
+        ground_root        adds a joint, "root", first and above all others, on the ground
+        drop_helpers       omits twist bones and helpers (recognised by their names); their parent joints take over what they moved
 
-        Error: INVALID_ARGUMENT (no template, and the model was not learned of rigged characters; fewer than three
-        landmarks found), INVALID_FILE (the template is no JSON); Cancelled.
+        Error: INVALID_ARGUMENT (no template, and the model was not trained on rigged characters; fewer than three
+        landmarks found), INVALID_FILE (the template is not JSON); Cancelled.
         """
         character = None if animations is None else handle_of(animations, Mesh, "animations")
         params = skeleton_params(self._joint_names, names=names, joint_names=joint_names, animations=character,
@@ -263,7 +263,7 @@ class Detection(Handle):
         return run(rig, task, on_progress)
 
     def write(self, path: str | os.PathLike[str]) -> None:
-        """Writes what the end of the path says, in any case. .glb, .gltf, .vrm: the mesh's own glTF, nothing lost, with a
+        """Writes a file; its suffix, in upper or lower case, chooses the format. .glb, .gltf, .vrm: the mesh's own glTF, nothing lost, with a
         node for each landmark that is not absent; a mesh that has no file as a plain .glb. .landmarks.json, .csv: the
         landmarks alone (`focal convert` makes other programs' files of them). ValueError: another ending. Error:
         INVALID_ARGUMENT (the suffix of the other kind of glTF), IO, FILE_NOT_FOUND."""

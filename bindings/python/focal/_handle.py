@@ -1,4 +1,4 @@
-"""What all objects share that stand for a handle of focal."""
+"""The base class of all objects that hold a handle of focal."""
 from __future__ import annotations
 
 import contextlib
@@ -67,7 +67,7 @@ class Handle:
         return self._pointer is None
 
     def close(self) -> None:
-        """Frees the object; again is fine. A call that runs with it in another thread goes on to its end."""
+        """Frees the object; closing twice is allowed. A call that another thread runs on it still completes."""
         if self._pointer is None:
             return
         with self._borrowing:
@@ -90,7 +90,7 @@ class Handle:
         raise TypeError(f"a focal.{type(self).__name__} cannot be copied or pickled")
 
     def _facts(self) -> str:
-        """What a look at the object in a console should show."""
+        """What the repr of the object shows."""
         return ""
 
     def __repr__(self) -> str:

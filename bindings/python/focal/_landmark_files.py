@@ -15,8 +15,8 @@ from ._values import Mark, SurfacePoint
 
 def read_landmarks(path: str | os.PathLike[str]) -> dict[str, Mark]:
     """The marks of a landmark file, .landmarks.json or .csv, as TrainingSet.add takes them: a SurfacePoint, a vertex number, a
-    position (x, y, z), or None where the file calls the landmark absent. `focal convert` makes such files of other programs'.
-    ValueError, which names the file: not such a file, a landmark without a place, a name that is there twice; OSError."""
+    position (x, y, z), or None where the file calls the landmark absent. `focal convert` makes such files from those of other programs.
+    ValueError, which names the file: not such a file, a landmark without a place, a duplicate name; OSError."""
     name = os.fsdecode(path)
     try:
         text = pathlib.Path(name).read_text(encoding="utf-8-sig")
@@ -32,8 +32,8 @@ def read_landmarks(path: str | os.PathLike[str]) -> dict[str, Mark]:
 
 
 def write_landmarks(path: str | os.PathLike[str], marks: Mapping[str, Mark], *, mesh: str = "") -> None:
-    """Writes marks of one mesh, by name, as read_landmarks reads them; the end of the path says which kind of file. mesh: the name of its
-    file, for people. ValueError: another ending; a mark that is no position in a .csv; OSError."""
+    """Writes marks of one mesh, by name, as read_landmarks reads them; the suffix of the path chooses the format. mesh: the name of its
+    file, for readers. ValueError: another suffix; a mark without a position in a .csv. OSError."""
     name = os.fsdecode(path)
     lower = name.lower()
     if lower.endswith(".csv"):

@@ -1,7 +1,7 @@
 """Finds and loads the shared library, and calls it.
 
 Searched, in this order: the file that the environment variable FOCAL_LIBRARY names; the package's own folder and its
-lib/; the folder that holds the package; the system's libraries. The first file that is there is taken. It is loaded
+lib/; the folder that holds the package; the system's libraries. The first existing file is used. It is loaded
 at the first call that needs it and never unloaded.
 """
 from __future__ import annotations
@@ -36,7 +36,7 @@ def _find() -> str:
     named = os.environ.get("FOCAL_LIBRARY")
     if named:
         if not os.path.isfile(named):
-            raise LibraryError(f"FOCAL_LIBRARY names {named!r}, which is no file.\n"
+            raise LibraryError(f"FOCAL_LIBRARY names {named!r}, which is not a file.\n"
                                "Set it to the full path of focal's shared library, or unset it.")
         return named
     package = pathlib.Path(__file__).resolve().parent
@@ -88,11 +88,11 @@ def _open(path: str) -> ctypes.CDLL:
 
 
 def load_library(path: str | os.PathLike[str] | None = None) -> str:
-    """Loads focal's shared library now and gives its path.
+    """Loads focal's shared library now and returns its path.
 
-    path: the library's file; None: search (see the head of this module). Every other call does this by itself when
-    it is first needed. Raises LibraryError when the library is missing, damaged or of another version, and when
-    another one than `path` is loaded already.
+    path: the library's file; None: search (see the head of this module). Every other call does this automatically when
+    the library is first needed. Raises LibraryError when the library is missing, damaged or of another version, and when
+    a library other than `path` is already loaded.
     """
     global _loaded
     with _lock:
@@ -123,7 +123,7 @@ def call(name: str, *arguments: Any) -> None:
 
 
 def create(name: str, kind: type[ctypes.Structure], *arguments: Any) -> Any:
-    """Calls a function whose last argument receives a handle; gives the handle."""
+    """Calls a function whose last argument receives a handle; returns the handle."""
     out: Any = ctypes.POINTER(kind)()
     call(name, *arguments, ctypes.byref(out))
     return out
@@ -145,5 +145,5 @@ def version() -> str:
 
 
 def peak_memory_bytes() -> int:
-    """The largest resident memory of this process so far, in bytes; 0 where the system does not tell."""
+    """The largest resident memory of this process so far, in bytes; 0 if the system does not report it."""
     return int(library().focal_peak_memory_bytes())

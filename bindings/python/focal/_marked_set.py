@@ -1,4 +1,4 @@
-"""Sets of marked meshes in folders, and how well models find their marks."""
+"""Sets of marked meshes in folders, and the errors of models on them."""
 from __future__ import annotations
 
 import json
@@ -85,7 +85,7 @@ class MarkedSet:
 
     @classmethod
     def load(cls, folder: str | os.PathLike[str]) -> MarkedSet:
-        """Reads FOLDER/set.json. ValueError: it is not what it should be; OSError."""
+        """Reads FOLDER/set.json. ValueError: its content is not valid; OSError."""
         place = pathlib.Path(os.fsdecode(folder))
         try:
             document = json.loads((place / "set.json").read_text(encoding="utf-8-sig"))
@@ -99,7 +99,7 @@ class MarkedSet:
                    {key: value for key, value in document.items() if key not in known})
 
     def save(self) -> None:
-        """Writes set.json; the folder is made where there is none. OSError."""
+        """Writes set.json, and makes the folder if it does not exist. OSError."""
         self._place.mkdir(parents=True, exist_ok=True)
         document = {"name": self.name or self._place.resolve().name, "landmark_names": self.landmark_names, "mirror": self.mirror,
                     **self.splits, **self.others}

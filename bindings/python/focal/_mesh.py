@@ -1,4 +1,4 @@
-"""Surfaces to learn from and to look at."""
+"""Meshes for training and detection."""
 from __future__ import annotations
 
 import ctypes
@@ -21,12 +21,12 @@ NO_TRIANGLE = _abi.FOCAL_NO_TRIANGLE
 
 
 class LeftOut(NamedTuple):
-    """What of a scene is not analysed."""
+    """A node or part of a scene that is not analysed."""
 
     name: str             # "node 'Ground'"
     reason: Scenery
     triangle_count: int   # 0 where it is hidden
-    is_whole_node: bool   # written files keep such a node and its mesh as they were, without a skin
+    is_whole_node: bool   # written files keep such a node and its mesh unchanged, without a skin
 
 
 class SymmetryPlane(NamedTuple):
@@ -45,27 +45,27 @@ class Part(NamedTuple):
 
 
 class Mesh(Handle):
-    """A surface of triangles, ready to be analysed. It never changes; it can be pickled.
+    """A triangle mesh, ready to be analysed. It is immutable and can be pickled.
 
-    vertices  (n, 3) numbers, in units of your own; kept as 32-bit floats. 64-bit ones that lie so far from 0 that they
-              would lose their shape so (earth-centred coordinates) are moved to 0 first, see origin
+    vertices  (n, 3) numbers, in your own units; stored as 32-bit floats. 64-bit coordinates that are too far from 0 for this
+              precision (earth-centred ones) are moved to 0 first, see origin
     faces     (m, 3) vertex numbers from 0, counter-clockwise seen from outside
     weld               merge vertices of equal position, and open borders that meet within 2e-4 of the size. Default True
     drop_degenerate    drop triangles with a repeated corner and repeated triangles. Default True
-    surface            what is analysed, a focal.Surface or its name: "as-is" the mesh's own triangles, separate parts
-                       linked at their nearest vertices; "wrapped" one closed surface round everything that the mesh
-                       shows from outside (models of preset default only); "auto", the default, wraps where the mesh has
-                       several parts or many edges of more than two triangles. Results always lie on your triangles
+    surface            the surface to analyse, a focal.Surface or its name: "as-is": the mesh's own triangles, separate parts
+                       linked at their nearest vertices; "wrapped": one closed surface around everything visible from
+                       outside (models of preset default only); "auto", the default: wrapped if the mesh has several
+                       parts or many edges of more than two triangles. Results always refer to your triangles
     lenient            leave out triangles with a NaN or infinite corner or a vertex number out of range, with a
                        warning, instead of raising an error. Default False
-    keep_scenery       analyse all of the mesh: also parts that are plainly not the character (a ground, a backdrop, a
-                       shape around it, a prop that stands apart) and nodes that a file hides. Default False: they are
-                       left out with a warning, see left_out
+    keep_scenery       also analyse parts that are clearly not the character (a ground, a backdrop, an enclosing shape, a
+                       prop that stands apart) and nodes that a file hides. Default False: they are left out with a
+                       warning, see left_out
     max_vertices, max_triangles  larger meshes are refused. Defaults 5,000,000 and 10,000,000
     task               cancels the work on a large mesh, see focal.Task
 
     Blocks of numbers may be NumPy arrays, anything NumPy takes, buffers such as array.array, or sequences; flat ones
-    are read three numbers at a time. Raises TypeError and ValueError for what is no such block; Error with
+    are read three numbers at a time. Raises TypeError and ValueError for any other value; Error with
     Status.INVALID_MESH (no triangles, a vertex number out of range, NaN) or MESH_TOO_SMALL.
 
     Vertex and triangle numbers in all results are those given here.
@@ -96,8 +96,8 @@ class Mesh(Handle):
                    drop_degenerate: bool | None = None, surface: Surface | str | int | None = None,
                    lenient: bool | None = None, keep_scenery: bool | None = None, max_vertices: int | None = None,
                    max_triangles: int | None = None, context: Context | None = None, task: Task | None = None) -> Mesh:
-        """A character of several parts (body, eyes, clothes) as one mesh: (vertices, faces) of each, in one coordinate system. Vertices
-        and triangles are numbered through, part after part; `parts` says where each begins. Parameters and errors as Mesh."""
+        """Makes one mesh of a character with several parts (body, eyes, clothes): (vertices, faces) of each, in one coordinate system.
+        Vertices and triangles are numbered consecutively, part after part; `parts` says where each begins. Parameters and errors as Mesh."""
         descs = [_described(vertices, faces) for vertices, faces in parts]
         source = source_of("parts", weld=weld, drop_degenerate=drop_degenerate, surface=surface, lenient=lenient,
                            keep_scenery=keep_scenery, max_vertices=max_vertices, max_triangles=max_triangles)
@@ -151,8 +151,8 @@ class Mesh(Handle):
         keep_source_file      keep the file's bytes, so that results can be written into it. Default True
         max_nodes, max_json_bytes, max_file_bytes  larger files are refused. Defaults 1,000,000, 64 MiB, 2 GiB
         task                  cancels loading a large file, see focal.Task
-        pose_animation, pose_time  the name of an animation, and seconds: skinned meshes come in that pose. Such a
-                                   mesh keeps no file
+        pose_animation, pose_time  the name of an animation, and seconds: skinned meshes are loaded in that pose.
+                                   Such a mesh keeps no file
 
         Error: FILE_NOT_FOUND, IO, INVALID_FILE, UNSUPPORTED, and those of Mesh.
         """
@@ -186,10 +186,10 @@ class Mesh(Handle):
 
     @property
     def info(self) -> dict[str, Any]:
-        """All that the library reports in numbers: counts of the mesh and of the surface that is analysed
-        (surface_vertex_count, ...), mean_edge_length, surface_area, load_seconds, repair_seconds, and what was found and done: invalid_triangles,
+        """All figures that the library reports: counts of the mesh and of the surface that is analysed
+        (surface_vertex_count, ...), mean_edge_length, surface_area, load_seconds, repair_seconds, and what was found and repaired: invalid_triangles,
         degenerate_triangles, flipped_triangles, nonmanifold_edges, nonmanifold_vertices, boundary_loops,
-        component_count, is_oriented; is_wrapped: one closed surface round the mesh is analysed; left_out_count,
+        component_count, is_oriented; is_wrapped: the closed surface around the mesh is analysed; left_out_count,
         left_out_triangles: see left_out."""
         info = new(_abi.focal_mesh_info)
         call("focal_mesh_get_info", self._handle, ctypes.byref(info))
@@ -244,7 +244,7 @@ class Mesh(Handle):
         return found
 
     def write_wrap(self, path: str | os.PathLike[str]) -> None:
-        """Writes the closed surface round the mesh as a .glb, to look at: what is analysed where info["is_wrapped"].
+        """Writes the closed surface around the mesh as a .glb, for inspection; it is what is analysed if info["is_wrapped"].
         Error: INVALID_ARGUMENT (a path that ends in .gltf), IO, FILE_NOT_FOUND (no such folder)."""
         call("focal_mesh_write_wrap_gltf", self._handle, path_text(path))
 
@@ -263,7 +263,7 @@ class Mesh(Handle):
 
     def describe(self, vertices: Any, descriptor: _abi.Descriptor | str | int = "si-hks", *,
                  context: Context | None = None, task: Task | None = None, on_progress: Progress | None = None) -> Floats:
-        """(len(vertices), n) floats: what describes the surroundings of these vertices, by a name of
+        """(len(vertices), n) floats: descriptors of the surroundings of these vertices, of a kind named in
         focal.descriptors(). Error: INVALID_LANDMARK (no such vertex, or no triangle uses it); Cancelled."""
         chosen = listed(descriptor, descriptors(), "descriptor")
         wanted, handle, running = block_of(vertices, "vertices", "I", 1), self._handle, context_or_default(context)
@@ -276,8 +276,8 @@ class Mesh(Handle):
 
     def distances(self, source: Mark, distance: _abi.Distance | str | int = "heat", *, context: Context | None = None,
                   task: Task | None = None, on_progress: Progress | None = None) -> Floats:
-        """(vertex_count,) floats: from a vertex number or a SurfacePoint, by a name of focal.distances(); infinite
-        where no triangle uses the vertex. Error: INVALID_LANDMARK; Cancelled."""
+        """(vertex_count,) floats: distances from a vertex number or a SurfacePoint, of a kind named in focal.distances();
+        infinite where no triangle uses the vertex. Error: INVALID_LANDMARK; Cancelled."""
         chosen, running = listed(distance, distances(), "distance"), context_or_default(context)
         place, handle, room = marked_point(self, source, "source"), self._handle, empty("f", self.vertex_count)
         run(lambda task_handle: call("focal_mesh_distances", running._handle, handle, chosen, ctypes.byref(place),

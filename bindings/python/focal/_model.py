@@ -1,4 +1,4 @@
-"""What training makes, and what it finds."""
+"""Models: training, loading, detection; and analyses of meshes."""
 from __future__ import annotations
 
 import ctypes
@@ -20,7 +20,7 @@ from ._values import Mark, as_dict, choice, fill, given_of, listed, new, numbere
 
 
 class Model(Handle):
-    """Landmarks that were learned. It never changes; it can be pickled. It contains geometry of its training meshes."""
+    """A trained model. It is immutable and can be pickled. It contains geometry of its training meshes."""
 
     _kind = "model"
     _info: dict[str, Any] | None = None  # to count its bytes the library writes the whole model
@@ -38,21 +38,21 @@ class Model(Handle):
               task: Task | None = None, on_progress: Progress | None = None) -> Model:
         """Learns a model; seconds to minutes.
 
-        preset                 "default", or "paper": Xia et al. 2016 to the letter
+        preset                 "default", or "paper": exactly as in Xia et al. 2016
         eigenpair_count        of the Laplacian, 8..2000. Default 128 (paper: 200)
         tree_count             1..10000. Default 30
         min_leaf_samples       1 or more. Default 5
         components_per_split   1 or more. Default 5
         sampling_rate          of the vertices analysed, above 0 to 1. Default 1 (paper: 0.5)
         max_samples_per_shape  1 or more. Default 6250
-        proxy_vertices         meshes with more are analysed on a copy of so many; 0: as they are. Default 3500 (paper: 0)
-        seed                   same seed, same model. Default 0
-        learn_confidence       takes three quarters of the time; without it every confidence is about a half. Default True
-        rigged_shapes          learned of rigged characters in all, posed copies included. Default 16
+        proxy_vertices         meshes with more are analysed on a copy with this many; 0: as they are. Default 3500 (paper: 0)
+        seed                   the same seed gives the same model. Default 0
+        learn_confidence       takes three quarters of the time; without it every confidence is about one half. Default True
+        rigged_shapes          total learned from rigged characters, including posed copies. Default 16
         descriptor             "si-hks" or another name of focal.descriptors(). Default "si-hks"
         distance               "heat" or another name of focal.distances(). Default "heat"
         task, on_progress      see focal.Task; on_progress(progress in 0..1, stage: str) is called on this thread,
-                               about twenty times a second; what it raises cancels the training and is raised here
+                               about twenty times a second; an exception that it raises cancels the training and is raised here
 
         Error: TOO_FEW_SHAPES (a landmark marked on fewer than two meshes), NOT_CONVERGED, INVALID_ARGUMENT; Cancelled.
         """
@@ -92,7 +92,7 @@ class Model(Handle):
 
     @classmethod
     def from_bytes(cls, data: Any, *, context: Context | None = None) -> Model:
-        """From what to_bytes() gave (bytes-like). Errors as load()."""
+        """From the bytes of to_bytes() (bytes-like). Errors as load()."""
         memory, running = bytes_of(data), context_or_default(context)
         return cls._adopt(create("focal_model_load_memory", _abi.focal_model, running._handle, memory, len(memory)),
                           running)
@@ -104,7 +104,7 @@ class Model(Handle):
         return f"{landmarks} landmarks" + (f", {joints} joints" if joints else "")
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the model's file, whole or not at all. Error: IO, FILE_NOT_FOUND (no such folder)."""
+        """Writes the model's file, completely or not at all. Error: IO, FILE_NOT_FOUND (no such folder)."""
         call("focal_model_save", self._handle, path_text(path))
 
     def to_bytes(self) -> bytes:
@@ -131,7 +131,7 @@ class Model(Handle):
 
     @property
     def train_params(self) -> dict[str, Any]:
-        """The parameters of train() that it was made with."""
+        """The parameters of train() with which the model was trained."""
         params = new(_abi.focal_train_params)
         call("focal_model_get_train_params", self._handle, ctypes.byref(params))
         return {**as_dict(params), "descriptor": descriptors()[params.descriptor],
@@ -143,13 +143,13 @@ class Model(Handle):
 
     @property
     def joint_names(self) -> list[str]:
-        """Of the skeleton that it learned of rigged characters, parents first, or of the template that it carries; empty when it
-        has neither."""
+        """Joint names of the skeleton learned from rigged characters, parents first, or of the template in the model; empty
+        without either."""
         return self._texts("focal_model_joint_name", library().focal_model_joint_count(self._handle))
 
     @property
     def skeleton_template(self) -> str | None:
-        """The skeleton over its marked landmarks that it carries, as JSON text; see TrainingSet.set_skeleton()."""
+        """The skeleton template in the model, over its marked landmarks, as JSON text; see TrainingSet.set_skeleton()."""
         text = library().focal_model_skeleton_template(self._handle)
         return None if text is None else str(text, "utf-8")
 
@@ -159,18 +159,18 @@ class Model(Handle):
                absent_confidence: float | None = None, keep_votes: bool | None = None, seed: int | None = None,
                fixed: Mapping[str, Mark] | None = None, task: Task | None = None,
                on_progress: Progress | None = None) -> Detection:
-        """Finds the landmarks on a mesh: a part of a second. On an Analysis of it: about 0.1 s.
+        """Finds the landmarks on a mesh, in a fraction of a second; on an Analysis of it in about 0.1 s.
 
         quality             "best", or "interactive": faster, for a viewport
-        sampling_rate       of the vertices analysed, 0..1. Default 0: as suits model and quality
+        sampling_rate       of the vertices analysed, 0..1. Default 0: chosen for the model and quality
         max_samples         1 or more. Default 1250
         peaks_per_landmark  candidates among which the constellation chooses, 1..64. Default 8
         found_confidence    below it a landmark is uncertain. Default 0.5
         absent_confidence   below it a landmark is absent, 0..found_confidence. Default 0.05
         keep_votes          keep the vote maps. Default True
-        seed                same seed, same result. Default 1
-        fixed               {name: vertex number, SurfacePoint or (x, y, z)}: places that are known, as after a correction by hand.
-                            They stay, and the other landmarks are chosen to suit them
+        seed                the same seed gives the same result. Default 1
+        fixed               {name: vertex number, SurfacePoint or (x, y, z)}: known places, such as corrections by hand. They
+                            stay, and the other landmarks are chosen to be consistent with them
         task, on_progress   as in train()
 
         ValueError: a fixed name that the model does not know. Error: NOT_CONVERGED, INVALID_ARGUMENT (also: an analysis made for a model with other parameters); Cancelled.
@@ -198,8 +198,8 @@ class Model(Handle):
 
     def regress(self, analysis: Analysis, landmark: str | int, truth: Mark, *, task: Task | None = None,
                 on_progress: Progress | None = None) -> tuple[Floats, Floats]:
-        """What the regression makes of an analysis: for each sample point the distance to the landmark that follows
-        from its descriptor, and the true one to `truth`, a vertex number or a SurfacePoint. In units of
+        """Runs the regression on an analysis: for each sample point the distance to the landmark regressed from
+        its descriptor, and the true distance to `truth`, a vertex number or a SurfacePoint. In units of
         sqrt(surface area); preset paper: shares of the sample's largest distance."""
         given, handle = handle_of(analysis, Analysis, "analysis"), self._handle
         index, place = numbered(landmark, self.landmark_names), marked_point(analysis._mesh, truth, "truth")
@@ -214,8 +214,8 @@ class Model(Handle):
                     peaks_per_landmark: int | None = None, found_confidence: float | None = None,
                     absent_confidence: float | None = None, keep_votes: bool | None = None, seed: int | None = None,
                     task: Task | None = None, on_progress: Progress | None = None) -> list[Detection]:
-        """detect() on each of many meshes, one a thread: more of them a second than one call after another. All of them
-        or none: an Error names the number of the mesh that failed. Progress counts meshes: on_progress(0.3, "3 of 10 meshes")."""
+        """Runs detect() on many meshes in parallel, one per thread, with a higher throughput than single calls. It returns all
+        results or none: an Error gives the number of the mesh that failed. Progress counts meshes: on_progress(0.3, "3 of 10 meshes")."""
         handles = [handle_of(mesh, Mesh, "meshes") for mesh in meshes]
         given_params = given_of(quality=quality, sampling_rate=sampling_rate, max_samples=max_samples, peaks_per_landmark=peaks_per_landmark,
                                 found_confidence=found_confidence, absent_confidence=absent_confidence, keep_votes=keep_votes, seed=seed)
@@ -241,7 +241,7 @@ class Model(Handle):
     def analyse(self, mesh: Mesh, *, quality: _abi.Quality | str | None = None, sampling_rate: float | None = None,
                 max_samples: int | None = None, seed: int | None = None, task: Task | None = None,
                 on_progress: Progress | None = None) -> Analysis:
-        """What a detection spends nearly all its time on, to keep: it serves every model with the same
+        """The part of a detection that takes nearly all of its time, for reuse with every model that has the same
         eigenpair_count, proxy_vertices and preset. Parameters and errors as detect()."""
         given, handle = handle_of(mesh, Mesh, "mesh"), self._handle
         params = fill(new(_abi.focal_detect_params), quality=quality, sampling_rate=sampling_rate,
@@ -257,7 +257,7 @@ class Model(Handle):
 
 
 class Analysis(Handle):
-    """An analysed mesh, from Model.analyse: hand it to Model.detect of many models. It contains the mesh's geometry; it can be
+    """An analysed mesh, from Model.analyse; pass it to Model.detect of many models. It contains the mesh's geometry and can be
     pickled."""
 
     _kind = "analysis"
@@ -275,7 +275,7 @@ class Analysis(Handle):
 
     @classmethod
     def load(cls, mesh: Mesh, path: str | os.PathLike[str], *, context: Context | None = None) -> Analysis:
-        """What save() wrote, for the same mesh. Error: INVALID_FILE (damaged, or of another mesh), FILE_NOT_FOUND,
+        """Reads a file of save(), for the same mesh. Error: INVALID_FILE (damaged, or of another mesh), FILE_NOT_FOUND,
         IO, UNSUPPORTED_VERSION."""
         given, file, running = handle_of(mesh, Mesh, "mesh"), path_text(path), context_or_default(context)
         made = cls._adopt(create("focal_analysis_load", _abi.focal_analysis, running._handle, given, file), running)
@@ -286,7 +286,7 @@ class Analysis(Handle):
         return f"{self._mesh.vertex_count} vertices, {library().focal_analysis_sample_count(self._handle)} samples"
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes it to a file of a few MB. Error: IO, FILE_NOT_FOUND (no such folder)."""
+        """Writes the analysis to a file of a few MB. Error: IO, FILE_NOT_FOUND (no such folder)."""
         call("focal_analysis_save", self._handle, path_text(path))
 
 

@@ -43,11 +43,11 @@ class Skeleton(Handle):
     def bind(cls, mesh: Mesh, joints: Sequence[Joint | Mapping[str, Any]] | None = None, *,
              max_influences: int | None = None, context: Context | None = None, task: Task | None = None,
              on_progress: Progress | None = None) -> Skeleton:
-        """Weights for a skeleton that is there, from the body alone; joints stay as they are, to the bit. No model is needed.
+        """Computes weights for an existing skeleton from the body alone; the joints stay bit-identical. No model is needed.
 
-        joints          parents first: Joint, or mappings with name, parent (a number; -1: a root), position, and where known
+        joints          parents first: Joint, or mappings with name, parent (a number; -1: a root), position, and if known
                         rotation, tip, moves (False: it moves no vertex). None: those of the mesh's own file, which write()
-                        then gives other weights and changes in nothing else
+                        then writes with new weights and no other change
         max_influences  joints that move one vertex, 1 to 8 (default 4)
 
         Error: INVALID_ARGUMENT (no file, or one without a skin; a joint before its parent; no joint that moves anything);
@@ -86,8 +86,8 @@ class Skeleton(Handle):
     @property
     def weights(self) -> tuple[Numbers, Floats]:
         """(joints, weights): for each of the mesh's vertices four joint numbers, (n, 4), heaviest first, and their
-        weights, (n, 4) floats that sum to 1; all 0 where no triangle uses the vertex. Eight where rig was asked for
-        more than four."""
+        weights, (n, 4) floats that sum to 1; all 0 where no triangle uses the vertex. Eight if rig was called with
+        max_influences above four."""
         info = self.info
         count, each = info["vertex_count"], info["influences_per_vertex"]
         joints, weights = empty("I", each * count), empty("f", each * count)
@@ -104,12 +104,12 @@ class Skeleton(Handle):
 
     @property
     def verdict(self) -> _abi.Verdict:
-        """GOOD, CHECK (some joints may lie wrong) or FAILED (not to be used); warnings say what speaks against it."""
+        """GOOD, CHECK (some joints may be wrong) or FAILED (unusable); warnings give the reasons."""
         return _abi.Verdict(self.info["verdict"])
 
     @property
     def quality(self) -> float:
-        """0..1: what the verdict follows from."""
+        """0..1; the verdict is derived from it."""
         return float(self.info["quality"])
 
     @property
@@ -124,7 +124,7 @@ class Skeleton(Handle):
 
     def write_vrm(self, path: str | os.PathLike[str], meta: Mapping[str, Any]) -> None:
         """Writes a VRM 1.0 avatar: what write() writes, with the humanoid map by the joints' roles and VRM's meta data, of which name
-        and authors (a list) are needed. VRM wants a T-pose. Error: INVALID_ARGUMENT (a joint that VRM requires is missing; no name
+        and authors (a list) are required. VRM wants a T-pose. Error: INVALID_ARGUMENT (a joint that VRM requires is missing; no name
         or authors), and those of write."""
         call("focal_skeleton_write_vrm", self._handle, text(json.dumps(_mapping(meta, "meta")), "meta"), path_text(path))
 

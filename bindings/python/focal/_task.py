@@ -15,7 +15,7 @@ POLL_SECONDS = 0.05
 
 
 class Task(Handle):
-    """Hand one to a long call (task=...), then poll or cancel it from any thread.
+    """Pass one to a long call (task=...), then poll or cancel it from any thread.
 
     It serves one call at a time; a second one meanwhile raises Error with Status.INVALID_ARGUMENT. A cancelled task
     stays cancelled until reset(), so a cancel just before the call starts is not lost.
@@ -34,7 +34,7 @@ class Task(Handle):
         call("focal_task_cancel", self._handle)
 
     def reset(self) -> None:
-        """Back to progress 0 and not cancelled. Error with Status.INVALID_ARGUMENT while a call runs with it."""
+        """Resets to progress 0 and not cancelled. Error with Status.INVALID_ARGUMENT while a call runs with it."""
         call("focal_task_reset", self._handle)
 
     @property
@@ -44,7 +44,7 @@ class Task(Handle):
 
     @property
     def stage(self) -> str:
-        """What is being done: "spectrum", ...; "" before."""
+        """The current stage: "spectrum", ...; "" before the start."""
         return (library().focal_task_stage(self._handle) or b"").decode()
 
     @property
@@ -54,10 +54,10 @@ class Task(Handle):
 
 
 def run(work: Callable[[Any], Result], task: Task | None, on_progress: Progress | None) -> Result:
-    """work(task handle), a long call, with progress told and Ctrl-C heard.
+    """Runs work(task handle), a long call, reports progress and responds to Ctrl-C.
 
     Python runs neither callbacks nor signal handlers inside a C call. So on the main thread, or when progress is to be
-    told, the call runs on a thread of its own while this one waits.
+    reported, the call runs on a separate thread while this one waits.
     """
     if task is not None and not isinstance(task, Task):
         raise TypeError(f"task must be a focal.Task, not {type(task).__name__}")

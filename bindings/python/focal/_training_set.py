@@ -1,4 +1,4 @@
-"""Marked meshes to learn from."""
+"""Marked meshes for training."""
 from __future__ import annotations
 
 import contextlib
@@ -16,7 +16,7 @@ from ._values import Mark, integer, text
 
 
 class TrainingSet(Handle):
-    """Marked meshes. It is filled by one thread at a time (others wait) and not while a model is trained of it.
+    """Marked meshes. One thread at a time fills it (others wait), and not while a model is being trained from it.
 
     landmark_names  1..4096 different names, the landmarks to learn. None: a set of rigged characters (add_rig)
     """
@@ -52,8 +52,8 @@ class TrainingSet(Handle):
     def add(self, mesh: Mesh, marks: Mapping[str, Mark] | Sequence[Mark]) -> None:
         """Adds a mesh with its marks: {name: mark}, or marks in the order of landmark_names.
 
-        A mark is a vertex number, a SurfacePoint, (x, y, z): the nearest point of the surface, or None: absent on this mesh, as are names that a mapping lacks. The
-        set stays as it was on error: ValueError (a name that the set does not know, another number of marks), Error
+        A mark is a vertex number, a SurfacePoint, (x, y, z): the nearest point of the surface, or None: absent on this mesh, as are names that a mapping lacks. On
+        error the set does not change: ValueError (a name that the set does not know, another number of marks), Error
         with Status.INVALID_LANDMARK (no such vertex or triangle).
         """
         handle_of(mesh, Mesh, "mesh")
@@ -97,19 +97,19 @@ class TrainingSet(Handle):
             call("focal_training_set_add_rig", self._handle, handle)
 
     def set_skeleton(self, skeleton_template: str | Mapping[str, Any] | None) -> None:
-        """A skeleton over the marked landmarks, as JSON text or as a mapping (docs/rigs.md): models trained from the set carry it, and
-        Detection.rig() uses it. None: no skeleton, as at first.
+        """A skeleton over the marked landmarks, as JSON text or as a mapping (docs/rigs.md): models trained from the set store it, and
+        Detection.rig() uses it. None, the default: no skeleton.
 
-        Error: INVALID_ARGUMENT (it names what the set has not; a set of rigged characters), INVALID_FILE (no JSON).
+        Error: INVALID_ARGUMENT (it names landmarks that the set lacks; a set of rigged characters), INVALID_FILE (not JSON).
         """
         given = template_text(skeleton_template)
         with self._changed():
             call("focal_training_set_set_skeleton", self._handle, None if given is None else text(given, "skeleton_template"))
 
     def check(self) -> list[str]:
-        """What is odd about the rigged characters, in sentences that number them from 1: joints that some of them lack,
-        prefixes of names that were put aside, weights that are no numbers, joints all in one place. Model.train learns
-        from them all the same. A set with landmark names has nothing odd.
+        """Warnings about the rigged characters, as sentences that number them from 1: joints that some of them lack,
+        ignored name prefixes, weights that are not numbers, joints all in one place. Model.train still learns from
+        these characters. A set with landmark names has no warnings.
 
         Error: INVALID_ARGUMENT (no character, or characters that share fewer than half of their joints).
         """

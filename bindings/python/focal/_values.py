@@ -94,7 +94,7 @@ def listed(value: Any, names: list[str], name: str) -> int | None:
 
 
 def numbered(which: Any, names: list[str]) -> int:
-    """The number of a landmark told by name or number, from the end too. KeyError, IndexError."""
+    """The number of a landmark given by name or number; negative numbers count from the end. KeyError, IndexError."""
     if isinstance(which, str):
         if which not in names:
             raise KeyError(which)
@@ -102,7 +102,7 @@ def numbered(which: Any, names: list[str]) -> int:
     try:
         number = operator.index(which)
     except TypeError:
-        raise TypeError(f"a landmark is told by name or number, not {type(which).__name__}") from None
+        raise TypeError(f"a landmark is given by name or number, not {type(which).__name__}") from None
     if not -len(names) <= number < len(names):
         raise IndexError(f"there are {len(names)} landmarks, there is no number {number}")
     return number % len(names)
