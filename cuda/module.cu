@@ -1,5 +1,5 @@
 // The module's one exported function.
-#include "compute/device/table.h"
+#include "device/table.h"
 #include "queue.h"
 
 extern "C" __attribute__((visibility("default"))) const focal::ComputeTable* focal_compute_entry(

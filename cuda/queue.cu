@@ -3,7 +3,7 @@
 #include <mutex>
 #include <utility>
 
-#include "compute/device/kernels.h"
+#include "device/kernels.h"
 #include "queue.h"
 
 namespace focal {

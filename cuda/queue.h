@@ -9,7 +9,7 @@
 #include <memory>
 #include <string>
 
-#include "compute/device/array.h"
+#include "device/array.h"
 
 namespace focal {
 

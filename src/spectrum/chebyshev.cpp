@@ -19,7 +19,7 @@ namespace focal {
 namespace {
 
 constexpr int lanes = Columns::lanes;
-constexpr int max_rounds = 40, max_degree = 30;
+constexpr int max_degree = 30;
 constexpr double shift_over_last = 1;  // of the last column's eigenvalue: quick rounds without loss of rank
 
 // How much a round may lift the first eigenvector over a column's own: more, and the rounding noise of float
@@ -129,7 +129,7 @@ Eigenbasis chebyshev_eigenpairs(const StandardProblem& problem, const Execution&
   Vector lambda, residuals;
   double residual = 1, previous = 1;
   for (int round = 0; !(residual <= problem.tolerance); ++round) {
-    if (round == max_rounds || !std::isfinite(residual))
+    if (round == problem.max_rounds || !std::isfinite(residual))
       throw Error(Status::not_converged, "the eigenvalues of the surface did not converge",
                   "ask for fewer eigenpairs, or repair the mesh first");
     if (round > 1) follow_spectrum(factor, problem, lambda(lambda.size() - 1), execution);

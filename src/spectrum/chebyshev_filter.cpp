@@ -7,16 +7,12 @@
 #include "base/aligned_array.h"
 #include "base/multiversion.h"
 #include "linear/block_kernels.h"
+#include "spectrum/eigensolvers.h"
 
 namespace focal {
 namespace {
 
 constexpr int lanes = SparseCholesky::lanes;
-
-SparseMatrix shifted(SparseMatrix A, double shift) {
-  for (int32_t i = 0; i < A.rows(); ++i) A.coeffRef(i, i) += shift;
-  return A;
-}
 
 template <class T>
 struct Buffers {

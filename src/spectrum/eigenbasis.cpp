@@ -14,7 +14,21 @@ namespace {
 // A tenth of Weyl's law, lambda_k = 4 pi k / area, for the last wanted pair.
 double eigenvalue_scale(double area, int32_t count) { return 0.4 * std::numbers::pi * count / area; }
 
+Eigenbasis quick_eigenpairs(const StandardProblem& problem, const Execution& execution) {
+  try {
+    return chebyshev_eigenpairs(problem, execution);
+  } catch (const Error& error) {
+    if (error.status() != Status::not_converged) throw;
+  }
+  return lanczos_eigenpairs(problem, execution);
+}
+
 }  // namespace
+
+SparseMatrix shifted(SparseMatrix A, double shift) {
+  for (int32_t i = 0; i < A.rows(); ++i) A.coeffRef(i, i) += shift;
+  return A;
+}
 
 void fix_sign(Eigen::Ref<Vector> phi) {
   Eigen::Index largest;
@@ -38,10 +52,13 @@ Eigenbasis eigenbasis(const SparseMatrix& L, const Vector& mass, const EigenPara
   const int32_t count = std::clamp(params.count, 1, n - 2);
   const Vector inverse_root_mass = mass.cwiseSqrt().cwiseInverse();
   const StandardProblem problem{inverse_root_mass.asDiagonal() * L * inverse_root_mass.asDiagonal(),
-                                eigenvalue_scale(mass.sum(), count), count, params.tolerance,
-                                std::move(symbolic)};
+                                eigenvalue_scale(mass.sum(), count),
+                                count,
+                                params.tolerance,
+                                std::move(symbolic),
+                                params.max_rounds};
   Eigenbasis basis = n < std::max(3 * count, 256)              ? dense_eigenpairs(problem)
-                     : params.method == EigenMethod::chebyshev ? chebyshev_eigenpairs(problem, execution)
+                     : params.method == EigenMethod::chebyshev ? quick_eigenpairs(problem, execution)
                                                                : lanczos_eigenpairs(problem, execution);
   basis.lambda = basis.lambda.cwiseMax(0);
   parallel_for(execution, basis.Phi.cols(), [&](int64_t j) {

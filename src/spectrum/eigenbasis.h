@@ -13,14 +13,15 @@ struct Eigenbasis {
   Matrix Phi;     // n x k, Phi^T M Phi = I
 };
 
-// chebyshev: blocks of solves, threaded, finds repeated eigenvalues. spectra: one solve after the other, the
-// check on it.
+// chebyshev: blocks of solves, threaded, finds repeated eigenvalues; where it does not converge, spectra follows. spectra: one
+// solve after the other.
 enum class EigenMethod { spectra, chebyshev };
 
 struct EigenParams {
   int32_t count = 200;  // clamped to n - 2
   EigenMethod method = EigenMethod::chebyshev;
   double tolerance = 1e-8;  // relative residual; the error of an eigenvalue is about its square
+  int32_t max_rounds = 40;  // of chebyshev; it needs 3 to 6
 };
 
 // L: n x n symmetric positive semi-definite; mass: n, > 0 (the diagonal of M). The same bits for any thread

@@ -13,13 +13,17 @@ struct StandardProblem {
   int32_t count;
   double tolerance;                                          // relative residual
   std::shared_ptr<const SymbolicFactor> symbolic = nullptr;  // of A where it is known
+  int32_t max_rounds = 40;                                   // of the Chebyshev iteration
 };
 
 // All of them at once, for matrices little larger than the count.
 Eigenbasis dense_eigenpairs(const StandardProblem& problem);
-// One Krylov space, one solve after the other: the reference.
+// A + shift I.
+SparseMatrix shifted(SparseMatrix A, double shift);
+
+// One Krylov space, one solve after the other: the check on the other, and what is left where that does not converge.
 Eigenbasis lanczos_eigenpairs(const StandardProblem& problem, const Execution& execution);
-// Blocks of 32 solves at once: fast.
+// Blocks of 32 solves at once: fast. Throws not_converged after max_rounds.
 Eigenbasis chebyshev_eigenpairs(const StandardProblem& problem, const Execution& execution);
 
 }  // namespace focal

@@ -11,11 +11,6 @@
 namespace focal {
 namespace {
 
-SparseMatrix shifted(SparseMatrix A, double shift) {
-  for (int32_t i = 0; i < A.rows(); ++i) A.coeffRef(i, i) += shift;
-  return A;
-}
-
 // y = (A + shift I)^-1 x, in the interface that Spectra asks for.
 class ShiftedInverse {
  public:

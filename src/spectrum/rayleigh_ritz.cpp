@@ -4,13 +4,14 @@
 #include "spectrum/rayleigh_ritz.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <limits>
 #include <type_traits>
 #include <vector>
 
+#include "base/error.h"
 #include "linear/block_kernels.h"
-#include "linear/symmetric_eigen.h"
 
 namespace focal {
 namespace {
@@ -163,56 +164,60 @@ struct Orthonormaliser {
   bool complete;
 };
 
-Orthonormaliser orthonormaliser(const Matrix& gram, bool of_floats, const Execution& execution) {
+using DenseEigen = Eigen::SelfAdjointEigenSolver<Matrix>;
+
+DenseEigen dense_eigen(const Matrix& A) {
+  DenseEigen eigen(A);
+  if (!A.allFinite() || eigen.info() != Eigen::Success)
+    throw Error(Status::not_converged, "the eigenvalues of the surface did not converge",
+                "the mesh may hold non-finite positions or degenerate triangles; repair it first");
+  return eigen;
+}
+
+Orthonormaliser orthonormaliser(const Matrix& gram, bool of_floats) {
   const Vector unit = gram.diagonal().cwiseMax(std::numeric_limits<double>::min()).cwiseSqrt().cwiseInverse();
   const Matrix G = unit.asDiagonal() * gram * unit.asDiagonal();
   const Eigen::LLT<Matrix> llt(G);
   if (llt.info() == Eigen::Success && llt.matrixLLT().diagonal().minCoeff() > (of_floats ? 1e-3 : 1e-7))
     return {unit.asDiagonal() * Matrix(llt.matrixU().solve(Matrix::Identity(G.rows(), G.cols()))), true};
-  const SymmetricEigen eigen = symmetric_eigen(G, execution);
-  const double shortest = (of_floats ? 1e-6 : 1e-12) * eigen.values.maxCoeff();
-  const Vector length = eigen.values.cwiseMax(shortest).cwiseSqrt();
-  return {unit.asDiagonal() * eigen.vectors * length.cwiseInverse().asDiagonal(), false};
+  const DenseEigen eigen = dense_eigen(G);
+  const double shortest = (of_floats ? 1e-6 : 1e-12) * eigen.eigenvalues().maxCoeff();
+  const Vector length = eigen.eigenvalues().cwiseMax(shortest).cwiseSqrt();
+  return {unit.asDiagonal() * eigen.eigenvectors() * length.cwiseInverse().asDiagonal(), false};
 }
 
 // Returns the C that makes X C orthonormal. Directions that rounding has left short get their full length first.
 template <class T>
 Matrix prepare_orthonormal(const Columns& X, const Execution& execution) {
   for (int attempt = 0;; ++attempt) {
-    const auto [C, complete] =
-        orthonormaliser(gram_matrix<T>(X, 0, execution), std::is_same_v<T, float>, execution);
+    const auto [C, complete] = orthonormaliser(gram_matrix<T>(X, 0, execution), std::is_same_v<T, float>);
     if (complete || attempt == 3) return C;
     rotate<T>(X, C, 0, execution);
   }
-}
-
-SymmetricEigen eigen_within(const Matrix& projected, const Matrix& C, const Execution& execution) {
-  return symmetric_eigen(dense_product(C.transpose(), dense_product(projected, C, execution), execution),
-                         execution);
 }
 
 template <class T>
 Vector solve_all(const SparseMatrix& A, const Columns& X, const Execution& execution) {
   const Matrix C = prepare_orthonormal<T>(X, execution);
   const Matrix projected = projection<T>(A, X, {}, execution);
-  const SymmetricEigen eigen = eigen_within(projected, C, execution);
-  rotate<T>(X, dense_product(C, eigen.vectors, execution), 0, execution);
-  return eigen.values;
+  const DenseEigen eigen = dense_eigen(C.transpose() * projected * C);
+  rotate<T>(X, C * eigen.eigenvectors(), 0, execution);
+  return eigen.eigenvalues();
 }
 
 // The columns after the locked ones are made orthogonal to these, and the problem is solved among them.
 Vector solve_rest(const SparseMatrix& A, const Columns& X, const Vector& locked, const Execution& execution) {
   const int first = static_cast<int>(locked.size()) / lanes;
-  const auto [C, complete] = orthonormaliser(gram_matrix<double>(X, first, execution), false, execution);
+  const auto [C, complete] = orthonormaliser(gram_matrix<double>(X, first, execution), false);
   if (!complete) return solve_all<double>(A, X, execution);
   Matrix rest = C.rightCols(X.count() - locked.size());
   const Matrix projected = projection<double>(A, X, locked, execution);
-  const SymmetricEigen eigen = eigen_within(projected, rest, execution);
+  const DenseEigen eigen = dense_eigen(rest.transpose() * projected * rest);
   Matrix all = Matrix::Zero(X.count(), X.count());
-  all.rightCols(rest.cols()) = dense_product(rest, eigen.vectors, execution);
+  all.rightCols(rest.cols()) = rest * eigen.eigenvectors();
   rotate<double>(X, all, first, execution);
   Vector lambda(X.count());
-  lambda << locked, eigen.values;
+  lambda << locked, eigen.eigenvalues();
   if (lambda(locked.size()) < locked(locked.size() - 1)) return solve_all<double>(A, X, execution);
   return lambda;
 }

@@ -1,5 +1,5 @@
 // The module played by the host: loaded by name like the real one, with the same table.
-#include "compute/device/table.h"
+#include "device/table.h"
 #include "host_queue.h"
 
 extern "C" __attribute__((visibility("default"))) const focal::ComputeTable* focal_compute_entry(

@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "compute/device/array.h"
+#include "device/array.h"
 
 namespace focal_test {
 

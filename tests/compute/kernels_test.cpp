@@ -1,5 +1,5 @@
 // The bodies of the kernels against the CPU's own code, on random and on hostile numbers.
-#include "compute/device/kernels.h"
+#include "device/kernels.h"
 
 #include <doctest/doctest.h>
 
@@ -9,7 +9,7 @@
 
 #include "analysis/leaf_votes.h"
 #include "base/random.h"
-#include "compute/device/votes.h"
+#include "device/votes.h"
 #include "compute/host_queue.h"
 #include "model/small_model.h"
 #include "operators/operators.h"

@@ -59,7 +59,7 @@ function check(target,   parts, to) {
   to = room  # "x.h": a file beside this one
   if (split(target, parts, "/") > 1) to = parts[1] == "focal" ? "include" : parts[1]
   if (!(to in rooms) || (room, to) in allowed) return
-  if (room == "cuda" && target ~ /^compute\/(backend\.h$|device\/)/) return
+  if (room == "cuda" && target ~ /^compute\/backend\.h$/) return
   fail("no arrow leads from " room " to " to " (\"" target "\")")
 }
 {

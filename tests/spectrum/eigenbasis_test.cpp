@@ -78,6 +78,18 @@ TEST_CASE("both methods give M-orthonormal eigenvectors of L, and the same spect
   }
 }
 
+TEST_CASE("where the Chebyshev iteration does not converge, Spectra takes over") {
+  const Operators operators = make_operators(with_radius(sphere(5), lump));
+  EigenParams params;
+  params.count = 60, params.max_rounds = 1;
+  const Eigenbasis basis = eigenbasis(operators.L, operators.mass, params, {});
+  const Eigenbasis reference = solve(operators, EigenMethod::spectra, 60);
+  check_definition(operators, basis);
+  CHECK(basis.lambda == reference.lambda);
+  CHECK(basis.Phi == reference.Phi);
+  CHECK(basis.lambda != solve(operators, EigenMethod::chebyshev, 60).lambda);  // it was not that one
+}
+
 TEST_CASE("repeated eigenvalues are found as often as they are there") {
   const Operators operators = make_operators(twins());
   const Eigenbasis basis = solve(operators, EigenMethod::chebyshev, 60);

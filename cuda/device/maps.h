@@ -1,7 +1,7 @@
 // Functional maps on a device: see spectrum/functional_map.cpp, whose rounds these are.
 #pragma once
-#include "compute/device/map_kernels.h"
-#include "compute/device/surface.h"
+#include "device/map_kernels.h"
+#include "device/surface.h"
 
 namespace focal {
 

@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "compute/backend.h"
-#include "compute/device/maps.h"
-#include "compute/device/spectrum.h"
-#include "compute/device/surface.h"
-#include "compute/device/votes.h"
+#include "device/maps.h"
+#include "device/spectrum.h"
+#include "device/surface.h"
+#include "device/votes.h"
 
 namespace focal {
 

@@ -1,6 +1,6 @@
 // Bodies of the kernels of functional maps; see kernels.h.
 #pragma once
-#include "compute/device/kernels.h"
+#include "device/kernels.h"
 
 namespace focal {
 

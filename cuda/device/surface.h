@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "compute/backend.h"
-#include "compute/device/array.h"
-#include "compute/device/kernels.h"
+#include "device/array.h"
+#include "device/kernels.h"
 
 namespace focal {
 

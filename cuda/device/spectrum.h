@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "compute/device/surface.h"
+#include "device/surface.h"
 
 namespace focal {
 

@@ -1,7 +1,7 @@
 // The forest on a device, and the votes of the leaves that samples reach.
 #pragma once
-#include "compute/device/surface.h"
-#include "compute/device/vote_kernels.h"
+#include "device/surface.h"
+#include "device/vote_kernels.h"
 
 namespace focal {
 
