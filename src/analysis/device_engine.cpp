@@ -57,6 +57,7 @@ class DeviceEngine final : public Engine {
   }
 
   bool is_device() const override { return true; }
+  std::vector<ComputeStage> stages() const override { return surface_->stages(); }
   void close() const { surface_->close(); }
 
  private:

@@ -7,6 +7,7 @@
 #include "analysis/stage_seconds.h"
 #include "base/matrix.h"
 #include "base/parallel.h"
+#include "compute/backend.h"
 #include "model/landmark_model.h"
 #include "spectrum/eigenbasis.h"
 #include "spectrum/functional_map.h"
@@ -42,6 +43,8 @@ class Engine {
                                  PlacesBetween initial, const MapParams& params) const = 0;
 
   virtual bool is_device() const = 0;
+  // What a device did since the last call, by its own clock; at most 64 stages.
+  virtual std::vector<ComputeStage> stages() const { return {}; }
 };
 
 // One for all surfaces.

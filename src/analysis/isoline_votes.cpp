@@ -61,7 +61,8 @@ RowMatrixf average_nearby(const RowMatrixf& votes, const SurfaceAnalysis& analys
 
 }  // namespace
 
-RowMatrixf isoline_votes(const SurfaceAnalysis& analysis, const RowMatrixf& radii, const Execution& execution) {
+RowMatrixf isoline_votes(const SurfaceAnalysis& analysis, const RowMatrixf& radii,
+                         const Execution& execution) {
   return average_nearby(cast_isoline_votes(analysis, radii, execution), analysis, execution);
 }
 

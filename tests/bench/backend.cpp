@@ -37,12 +37,13 @@ void time_stages(const Backend& backend, const LandmarkModel& model,
   std::map<std::string, std::vector<ComputeStage>> stages;
   for (int run = 0; run <= options.runs; ++run) {
     const SurfaceAnalysis analysis = analyse_for(model.params, mesh, {}, on(&backend, 1));
-    if (!analysis.on_backend) return std::printf("this mesh is none for the device\n"), void();
+    if (!analysis.engine->is_device()) return std::printf("this mesh does not suit the device\n"), void();
     const auto count = static_cast<int32_t>(analysis.samples.size());
-    analysis.on_backend->votes(model, analysis.samples,
-                               features_of(analysis, count, model.params, Matrix3::Identity()));
+    StageSeconds seconds;
+    analysis.engine->votes(analysis, model, features_of(analysis, count, model.params, Matrix3::Identity()),
+                           {}, seconds);
     std::map<std::string, ComputeStage> sums;
-    for (const ComputeStage& stage : analysis.on_backend->stages()) {
+    for (const ComputeStage& stage : analysis.engine->stages()) {
       ComputeStage& sum = sums[stage.name];
       sum.milliseconds += stage.milliseconds, sum.flops += stage.flops, sum.bytes += stage.bytes;
       if (std::find(order.begin(), order.end(), stage.name) == order.end()) order.emplace_back(stage.name);

@@ -109,7 +109,7 @@ TEST_CASE("an analysis that is kept needs no device any more" * doctest::skip(sa
   const int64_t live = faults() ? faults()->live.load() : 0;  // the model's forest stays
   const SurfaceAnalysis kept = analyse_to_keep(model()->params, mesh, {}, on(backend.get()), note);
   CHECK(note.empty());
-  CHECK_FALSE(kept.on_backend);
+  CHECK_FALSE(kept.engine->is_device());
   CHECK_FALSE(kept.distances.steps.empty());
   const Detection detection = detect(model(), kept, {}, on(backend.get()));
   CHECK_FALSE(detection.by_backend);

@@ -9,8 +9,8 @@
 
 #include "analysis/leaf_votes.h"
 #include "base/random.h"
-#include "device/votes.h"
 #include "compute/host_queue.h"
+#include "device/votes.h"
 #include "model/small_model.h"
 #include "operators/operators.h"
 #include "vote/peaks.h"

@@ -14,6 +14,10 @@
 using namespace focal;
 using namespace focal_test;
 
+namespace focal {
+DescriptorKind centre_distance_descriptor();  // the example of CONTRIBUTING.md
+}
+
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -42,8 +46,11 @@ struct Surface {
       : mesh(std::move(given)),
         operators(make_operators(mesh)),
         basis(eigenbasis(operators.L, operators.mass, {.count = pairs}, {})) {}
+  RowMatrix describe(const DescriptorKind& kind, const std::vector<int32_t>& vertices) const {
+    return kind.describe({mesh, operators, basis}, vertices, {});
+  }
   RowMatrix describe(std::string_view name, const std::vector<int32_t>& vertices) const {
-    return kind_of(name).describe({mesh, operators, basis}, vertices, {});
+    return describe(kind_of(name), vertices);
   }
   RowMatrix describe(std::string_view name) const { return describe(name, all_of(mesh.vertex_count())); }
 };
@@ -194,11 +201,14 @@ TEST_CASE("no descriptor changes when the mesh is turned, moved and scaled, and 
       ((40 * mesh.positions * random_rotation(random)).rowwise() + Eigen::RowVector3d(3, -8, 1)).eval();
   const Surface after(mesh);
   std::set<std::string_view> names;
-  for (const DescriptorKind& kind : descriptor_kinds()) {
+  std::vector<DescriptorKind> kinds(descriptor_kinds().begin(), descriptor_kinds().end());
+  kinds.push_back(centre_distance_descriptor());
+  const auto all = all_of(mesh.vertex_count());
+  for (const DescriptorKind& kind : kinds) {
     CAPTURE(kind.name);
     CHECK(names.insert(kind.name).second);
     CHECK(kind.dimension <= max_components);
-    const RowMatrix one = before.describe(kind.name), other = after.describe(kind.name);
+    const RowMatrix one = before.describe(kind, all), other = after.describe(kind, all);
     CHECK(one.cols() == kind.dimension);
     CHECK(one.allFinite());
     // A vertex on the border between two bins may fall on its other side by a rounding: hardly any do.
