@@ -25,10 +25,11 @@ install(FILES ${PROJECT_BINARY_DIR}/focal.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}
 install(DIRECTORY ${PROJECT_BINARY_DIR}/models/ DESTINATION ${CMAKE_INSTALL_DATADIR}/focal/models OPTIONAL
   FILES_MATCHING PATTERN "*.focal")
 
+# Optional: a build of some targets, such as that of samples/demo.sh, has no module and can be installed too.
 if(TARGET focal_cuda)
-  install(TARGETS focal_cuda LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(TARGETS focal_cuda LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} OPTIONAL)
 endif()
 if(TARGET focal_cli)
   set_target_properties(focal_cli PROPERTIES INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
-  install(TARGETS focal_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(TARGETS focal_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} OPTIONAL)
 endif()

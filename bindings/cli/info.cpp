@@ -3,12 +3,12 @@
 #include <fstream>
 #include <iostream>
 
+#include "evaluation/outcomes.h"
 #include "files.h"
 #include "marked_mesh.h"
 #include "models.h"
 #include "options.h"
 #include "output.h"
-#include "report.h"
 #include "text_table.h"
 
 namespace focal_cli {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "evaluate.h"
+#include "evaluation/accuracy.h"
 #include "handles.h"
 #include "options.h"
 #include "set_folder.h"

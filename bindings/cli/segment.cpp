@@ -2,13 +2,13 @@
 #include <iostream>
 #include <set>
 
+#include "evaluation/outcomes.h"
 #include "files.h"
 #include "marked_mesh.h"
 #include "models.h"
 #include "output.h"
 #include "parameters.h"
 #include "progress.h"
-#include "report.h"
 #include "text_table.h"
 
 namespace focal_cli {

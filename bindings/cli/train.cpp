@@ -3,12 +3,12 @@
 #include <iostream>
 
 #include "command_error.h"
+#include "evaluation/outcomes.h"
 #include "files.h"
 #include "marked_mesh.h"
 #include "output.h"
 #include "parameters.h"
 #include "progress.h"
-#include "report.h"
 #include "text_table.h"
 
 namespace focal_cli {

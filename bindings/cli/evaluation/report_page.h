@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "report.h"
+#include "evaluation/outcomes.h"
 
 namespace focal_cli {
 

@@ -1,12 +1,12 @@
 // The metrics against cases worked out by hand.
-#include "evaluate.h"
+#include "evaluation/accuracy.h"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "folds.h"
+#include "evaluation/folds.h"
 
 using namespace focal_cli;
 

@@ -1,5 +1,5 @@
-// How well landmarks were found. See evaluate.h.
-#include "evaluate.h"
+// How well landmarks were found. See accuracy.h.
+#include "evaluation/accuracy.h"
 
 #include <algorithm>
 #include <cmath>

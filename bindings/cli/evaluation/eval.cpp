@@ -3,13 +3,13 @@
 #include <optional>
 
 #include "command_error.h"
+#include "evaluation/outcomes.h"
+#include "evaluation/report_page.h"
 #include "files.h"
 #include "models.h"
 #include "output.h"
 #include "parameters.h"
 #include "progress.h"
-#include "report.h"
-#include "report_page.h"
 
 namespace focal_cli {
 namespace {

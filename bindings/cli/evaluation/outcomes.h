@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "evaluate.h"
+#include "evaluation/accuracy.h"
 #include "marked_mesh.h"
 #include "output.h"
 

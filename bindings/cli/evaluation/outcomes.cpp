@@ -1,5 +1,5 @@
 // What eval and cross-validate say: one mesh judged, and all of them as JSON and as tables.
-#include "report.h"
+#include "evaluation/outcomes.h"
 
 #include <algorithm>
 #include <chrono>

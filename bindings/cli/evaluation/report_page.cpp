@@ -1,5 +1,5 @@
 // focal eval --report: one HTML page that holds all it needs. See report_page.h.
-#include "report_page.h"
+#include "evaluation/report_page.h"
 
 #include <algorithm>
 #include <cmath>

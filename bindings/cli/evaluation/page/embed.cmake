@@ -1,6 +1,6 @@
 # Writes OUT: the report page's files as C++ text. cmake -DOUT=... -DTHREE=... -P embed.cmake
 set(here ${CMAKE_CURRENT_LIST_DIR})
-set(code "// Made from bindings/cli/report by embed.cmake.\n#include \"report_files.h\"\n\nnamespace focal_cli {\n")
+set(code "// Made from bindings/cli/evaluation/page by embed.cmake.\n#include \"report_files.h\"\n\nnamespace focal_cli {\n")
 
 # NAME from FILES, one after the other. Pieces of a literal are short enough for any compiler.
 function(embed name)

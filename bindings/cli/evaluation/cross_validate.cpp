@@ -3,11 +3,11 @@
 #include <iostream>
 
 #include "command_error.h"
-#include "folds.h"
+#include "evaluation/folds.h"
+#include "evaluation/outcomes.h"
 #include "output.h"
 #include "parameters.h"
 #include "progress.h"
-#include "report.h"
 
 namespace focal_cli {
 namespace {

@@ -1,5 +1,5 @@
 // Which meshes are left out together in cross-validation.
-#include "folds.h"
+#include "evaluation/folds.h"
 
 namespace focal_cli {
 
