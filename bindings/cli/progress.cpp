@@ -13,9 +13,9 @@
 namespace focal_cli {
 namespace {
 
-constexpr std::chrono::milliseconds kPoll(20);  // how late a Ctrl-C may reach the task
-constexpr int kPollsPerDraw = 5;
-constexpr double kEnoughToExtrapolate = 0.02;
+constexpr std::chrono::milliseconds poll_seconds(20);  // how late a Ctrl-C may reach the task
+constexpr int polls_per_draw = 5;
+constexpr double enough_to_extrapolate = 0.02;
 
 std::atomic<bool> interrupted{false};
 static_assert(std::atomic<bool>::is_always_lock_free);  // a signal handler may touch nothing else
@@ -63,9 +63,9 @@ focal_task* Progress::begin(const std::string& what, size_t index, size_t count)
 
 void Progress::watch() {
   std::unique_lock lock(mutex_);
-  for (int polls = 0; !wake_.wait_for(lock, kPoll, [this] { return done_; }); ++polls) {
+  for (int polls = 0; !wake_.wait_for(lock, poll_seconds, [this] { return done_; }); ++polls) {
     if (interrupted && task_) focal_task_cancel(task_.get());
-    if (draws_ && task_ && polls % kPollsPerDraw == 0) draw();
+    if (draws_ && task_ && polls % polls_per_draw == 0) draw();
   }
 }
 
@@ -78,7 +78,7 @@ void Progress::draw() {
   line += std::string(" - ") + focal_task_stage(task_.get());
   char percentage[16];
   std::snprintf(percentage, sizeof percentage, "%3.0f %%  ", 100 * fraction);
-  if (fraction > kEnoughToExtrapolate) {
+  if (fraction > enough_to_extrapolate) {
     line += "  " + clock_text(elapsed.count() * (1 - fraction) / fraction) + " left";
   }
   std::fprintf(stderr, "\r\x1b[K%s%s", percentage, line.substr(0, 90).c_str());

@@ -4,8 +4,8 @@
 
 namespace focal_cli {
 
-extern const std::string_view kReportPage, kReportStyle, kReportScript;
+extern const std::string_view report_page_text, report_style_text, report_script_text;
 extern const std::string_view
-    kReportThree;  // empty where three.js could not be had: the page then draws by itself
+    report_three_text;  // empty where three.js could not be had: the page then draws by itself
 
 }  // namespace focal_cli

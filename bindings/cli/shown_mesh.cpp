@@ -13,8 +13,8 @@
 namespace focal_cli {
 namespace {
 
-constexpr double kPageBytes = 14e6;  // for the meshes of a page
-constexpr size_t kMostVertices = 6000, kFewestVertices = 400;
+constexpr double page_bytes = 14e6;  // for the meshes of a page
+constexpr size_t max_shown_vertices = 6000, min_shown_vertices = 400;
 
 // The triangles over one vertex a position: exporters split vertices along seams, and a seam would show as a crease.
 std::vector<uint32_t> welded(const focal_mesh* mesh) {
@@ -150,19 +150,20 @@ Json shown_mesh_json(const focal_mesh* mesh, const ShownMesh& shown, const focal
 size_t shown_vertices_for(size_t meshes, size_t landmarks) {
   // A vertex: three 16-bit steps, two triangles of three 16-bit corners, a byte a landmark; base64 takes 4 for 3.
   const double vertex_bytes = (6.0 + 12.0 + static_cast<double>(landmarks)) * 4 / 3;
-  const double most = kPageBytes / vertex_bytes / std::max(1.0, static_cast<double>(meshes));
-  return static_cast<size_t>(std::clamp(most, double{kFewestVertices}, double{kMostVertices}));
+  const double most = page_bytes / vertex_bytes / std::max(1.0, static_cast<double>(meshes));
+  return static_cast<size_t>(std::clamp(most, double{min_shown_vertices}, double{max_shown_vertices}));
 }
 
 std::string base64(std::string_view bytes) {
-  static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  static constexpr char base64_digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;
   text.reserve((bytes.size() + 2) / 3 * 4);
   for (size_t i = 0; i < bytes.size(); i += 3) {
     uint32_t group = 0;
     for (size_t k = 0; k < 3; ++k)
       group = group << 8 | (i + k < bytes.size() ? static_cast<uint8_t>(bytes[i + k]) : 0u);
-    for (size_t k = 0; k < 4; ++k) text += i + k <= bytes.size() ? kDigits[group >> (18 - 6 * k) & 63] : '=';
+    for (size_t k = 0; k < 4; ++k)
+      text += i + k <= bytes.size() ? base64_digits[group >> (18 - 6 * k) & 63] : '=';
   }
   return text;
 }

@@ -14,12 +14,12 @@ namespace picture {
 namespace {
 
 // The drawing's unit is a tenth of a pixel, so that coordinates are short integers.
-constexpr int kPanelWidth = 2300, kPanelHeight = 3000, kMargin = 160, kCaption = 300;
-constexpr int kSlabs = 28, kShades = 26;
-constexpr int kHeats = 20,
-              kHeatShades = 12;      // of a figure with heat: fewer shades, or each path holds but a triangle
-constexpr size_t kLongCaption = 24;  // letters that fit into a panel
-constexpr double kBall = 46;
+constexpr int panel_width = 2300, panel_height = 3000, margin = 160, caption_height = 300;
+constexpr int slab_count = 28, shade_count = 26;
+constexpr int heats = 20,
+              heat_shades = 12;      // of a figure with heat: fewer shades, or each path holds but a triangle
+constexpr size_t long_caption = 24;  // letters that fit into a panel
+constexpr double ball_mesh = 46;
 
 int rounded(double x) { return static_cast<int>(std::lround(x)); }
 
@@ -47,19 +47,19 @@ std::string colour(double red, double green, double blue) {
 
 // Clay: warm shadows, nearly white lights.
 std::string clay(int shade) {
-  const double t = (shade + 0.5) / kShades;
+  const double t = (shade + 0.5) / shade_count;
   return colour(0.24 + 0.72 * t, 0.24 + 0.70 * t, 0.30 + 0.62 * t);
 }
 
 // Clay, amber, orange, red, dark red.
 std::string heat_colour(int heat, int shade) {
-  static constexpr double kStops[5][3] = {
+  static constexpr double stops[5][3] = {
       {0.80, 0.78, 0.74}, {0.98, 0.86, 0.55}, {0.97, 0.60, 0.25}, {0.85, 0.22, 0.16}, {0.50, 0.04, 0.16}};
-  const double place = 4.0 * heat / (kHeats - 1), light = 0.5 + 0.6 * (shade + 0.5) / kHeatShades;
+  const double place = 4.0 * heat / (heats - 1), light = 0.5 + 0.6 * (shade + 0.5) / heat_shades;
   const int below = std::min(static_cast<int>(place), 3);
   double channel[3];
   for (int k = 0; k < 3; ++k) {
-    const double mixed = kStops[below][k] + (place - below) * (kStops[below + 1][k] - kStops[below][k]);
+    const double mixed = stops[below][k] + (place - below) * (stops[below + 1][k] - stops[below][k]);
     channel[k] = std::min(1.0, mixed * light);
   }
   return colour(channel[0], channel[1], channel[2]);
@@ -101,7 +101,7 @@ Paint paint_of(const Figure& figure) {
 std::string paint_of(Paint kind, int value, int shade) {
   if (kind == Paint::clay) return "class=\"s" + std::to_string(shade) + "\"";
   const std::string paint =
-      kind == Paint::heat ? heat_colour(value, shade) : hue(value, 0.6 + 0.6 * (shade + 0.5) / kHeatShades);
+      kind == Paint::heat ? heat_colour(value, shade) : hue(value, 0.6 + 0.6 * (shade + 0.5) / heat_shades);
   return "fill=\"" + paint + "\" stroke=\"" + paint + "\"";
 }
 
@@ -112,9 +112,9 @@ std::string surface_of(const Panel& panel, Paint kind) {
     low = std::min(low, depth(patch)), high = std::max(high, depth(patch));
   std::map<std::array<int, 3>, std::vector<const Patch*>> layers;  // by slab, then heat or part, then shade
   for (const Patch& patch : panel.patches) {
-    const int slab = static_cast<int>((depth(patch) - low) / (high - low + 1e-9) * kSlabs);
-    layers[{slab, kind == Paint::parts ? patch.part : step_of(patch.heat, kHeats),
-            step_of(patch.shade, kind == Paint::clay ? kShades : kHeatShades)}]
+    const int slab = static_cast<int>((depth(patch) - low) / (high - low + 1e-9) * slab_count);
+    layers[{slab, kind == Paint::parts ? patch.part : step_of(patch.heat, heats),
+            step_of(patch.shade, kind == Paint::clay ? shade_count : heat_shades)}]
         .push_back(&patch);
   }
   std::string svg;
@@ -152,7 +152,7 @@ std::string balls_of(const Figure& figure, const Panel& panel, std::map<std::str
     const std::string place = "cx=\"" + std::to_string(rounded(panel.marks[i][0])) + "\" cy=\"" +
                               std::to_string(rounded(panel.marks[i][1])) + "\"";
     svg += std::string("<g") + (hidden ? " opacity=\".3\"" : "") + "><title>" + escaped(mark.name) +
-           "</title><circle " + place + " r=\"" + std::to_string(rounded(kBall)) + "\" fill=\"" +
+           "</title><circle " + place + " r=\"" + std::to_string(rounded(ball_mesh)) + "\" fill=\"" +
            (mark.uncertain ? "none" : paint) + "\" stroke=\"" + (mark.uncertain ? paint : "#222") + "\"/>";
     if (!mark.uncertain) svg += "<circle " + place + " r=\"46\" fill=\"url(#shine)\"/>";
     svg += "</g>\n";
@@ -168,7 +168,7 @@ std::string head_of(int width, int height) {
                     std::to_string(height / 10) + "\">\n<style>\n" +
                     ".figure text{font:150px sans-serif;fill:#444;text-anchor:middle}\n" +
                     ".figure path{stroke-width:6;stroke-linejoin:round}.figure circle{stroke-width:9}\n";
-  for (int shade = 0; shade < kShades; ++shade) {
+  for (int shade = 0; shade < shade_count; ++shade) {
     const std::string paint = clay(shade);
     svg += ".s" + std::to_string(shade) + "{fill:" + paint + ";stroke:" + paint + "}\n";
   }
@@ -186,16 +186,16 @@ std::string draw(const std::vector<Figure>& figures, size_t columns) {
   if (columns == 0) columns = std::max<size_t>(1, figures.size());
   std::map<std::string, int> colours;
   const int rows = static_cast<int>((figures.size() + columns - 1) / columns);
-  std::string svg = head_of(kPanelWidth * static_cast<int>(columns), (kPanelHeight + kCaption) * rows);
+  std::string svg = head_of(panel_width * static_cast<int>(columns), (panel_height + caption_height) * rows);
   for (size_t i = 0; i < figures.size(); ++i) {
-    const Panel panel = fit_into_panel(figures[i], kPanelWidth - 2 * kMargin, kPanelHeight - 2 * kMargin);
-    const int x = kPanelWidth * static_cast<int>(i % columns);
-    const int y = (kPanelHeight + kCaption) * static_cast<int>(i / columns);
-    svg += "<g transform=\"translate(" + std::to_string(x + kMargin) + " " + std::to_string(y + kMargin) +
+    const Panel panel = fit_into_panel(figures[i], panel_width - 2 * margin, panel_height - 2 * margin);
+    const int x = panel_width * static_cast<int>(i % columns);
+    const int y = (panel_height + caption_height) * static_cast<int>(i / columns);
+    svg += "<g transform=\"translate(" + std::to_string(x + margin) + " " + std::to_string(y + margin) +
            ")\">\n" + surface_of(panel, paint_of(figures[i])) + bones_of(figures[i], panel) +
-           balls_of(figures[i], panel, colours) + "<text x=\"" + std::to_string(kPanelWidth / 2 - kMargin) +
-           "\" y=\"" + std::to_string(kPanelHeight - kMargin + kCaption / 4) + "\"" +
-           (figures[i].caption.size() > kLongCaption ? " style=\"font-size:112px\"" : "") + ">" +
+           balls_of(figures[i], panel, colours) + "<text x=\"" + std::to_string(panel_width / 2 - margin) +
+           "\" y=\"" + std::to_string(panel_height - margin + caption_height / 4) + "\"" +
+           (figures[i].caption.size() > long_caption ? " style=\"font-size:112px\"" : "") + ">" +
            escaped(figures[i].caption) + "</text>\n</g>\n";
   }
   return svg + "</svg>\n";

@@ -10,7 +10,7 @@
 namespace picture {
 namespace {
 
-constexpr double kNearby = 90;  // depth that two things may differ by and still touch
+constexpr double nearby = 90;  // depth that two things may differ by and still touch
 
 Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
@@ -111,7 +111,7 @@ bool is_hidden(const Panel& panel, size_t mark) {
     const double sum = weights[0] + weights[1] + weights[2];
     if (sum == 0) return false;
     const double depth = (weights[0] * c[0][2] + weights[1] * c[1][2] + weights[2] * c[2][2]) / sum;
-    return depth > point[2] + kNearby;
+    return depth > point[2] + nearby;
   });
 }
 

@@ -116,9 +116,9 @@ class TemporaryFile {
 
   void write_and_sync(std::span<const std::byte> bytes) {
     while (!bytes.empty()) {
-      constexpr size_t kChunk = size_t{1} << 30;  // Linux writes at most 2 GiB a call
+      constexpr size_t chunk = size_t{1} << 30;  // Linux writes at most 2 GiB a call
       const ssize_t written =
-          uninterrupted([&] { return ::write(file_.get(), bytes.data(), std::min(bytes.size(), kChunk)); });
+          uninterrupted([&] { return ::write(file_.get(), bytes.data(), std::min(bytes.size(), chunk)); });
       if (written <= 0) fail("cannot write", path_, written < 0 ? errno : ENOSPC);
       bytes = bytes.subspan(static_cast<size_t>(written));
     }

@@ -114,8 +114,8 @@ std::vector<std::byte> GltfBuffers::decode(const tiny::Value& compressed, const 
   const auto source = extent(number("buffer"), number("byteOffset"), number("byteLength"));
   const int64_t count = number("count"), stride = number("byteStride");
   // The codecs cannot shrink data further than this, so a tiny file cannot ask for a huge block.
-  constexpr int64_t kBestRatio = 1024;
-  if (count * stride > kBestRatio * static_cast<int64_t>(source.size()))
+  constexpr int64_t best_ratio = 1024;
+  if (count * stride > best_ratio * static_cast<int64_t>(source.size()))
     fail_field(place, "extensions", "EXT_meshopt_compression announces more data than it can hold");
   charge(count * stride);
   std::vector<std::byte> bytes(static_cast<size_t>(count * stride));

@@ -11,8 +11,8 @@
 namespace focal {
 namespace {
 
-constexpr uint32_t kMagic = 0x46546c67, kVersion = 2, kJson = 0x4e4f534a, kBin = 0x004e4942;
-constexpr size_t kHeaderSize = 12, kChunkHeaderSize = 8;
+constexpr uint32_t glb_magic = 0x46546c67, format_version = 2, json_type = 0x4e4f534a, bin_type = 0x004e4942;
+constexpr size_t header_size = 12, chunk_header_size = 8;
 
 uint32_t little_endian_at(std::span<const std::byte> bytes, size_t at) {
   uint32_t value = 0;
@@ -32,35 +32,35 @@ struct Chunk {
 
 // Takes the next chunk off the front of `bytes`.
 Chunk take_chunk(std::span<const std::byte>& bytes) {
-  if (bytes.size() < kChunkHeaderSize) throw broken_file("a chunk header is cut off");
+  if (bytes.size() < chunk_header_size) throw broken_file("a chunk header is cut off");
   const size_t length = little_endian_at(bytes, 0);
-  if (length > bytes.size() - kChunkHeaderSize)
+  if (length > bytes.size() - chunk_header_size)
     throw broken_file("a chunk of " + std::to_string(length) + " bytes where " +
-                      std::to_string(bytes.size() - kChunkHeaderSize) + " are left");
-  const Chunk chunk{little_endian_at(bytes, 4), bytes.subspan(kChunkHeaderSize, length)};
-  bytes = bytes.subspan(kChunkHeaderSize + length);
+                      std::to_string(bytes.size() - chunk_header_size) + " are left");
+  const Chunk chunk{little_endian_at(bytes, 4), bytes.subspan(chunk_header_size, length)};
+  bytes = bytes.subspan(chunk_header_size + length);
   return chunk;
 }
 
 void open_binary(std::span<const std::byte> bytes, GltfContainer& container) {
-  if (bytes.size() < kHeaderSize) throw broken_file("the header is cut off");
+  if (bytes.size() < header_size) throw broken_file("the header is cut off");
   const uint32_t version = little_endian_at(bytes, 4);
   if (version != 2)
     throw Error(Status::unsupported, "GLB of version " + std::to_string(version),
                 "convert the file to glTF 2.0");
   const size_t length = little_endian_at(bytes, 8);
-  if (length < kHeaderSize || length > bytes.size())
+  if (length < header_size || length > bytes.size())
     throw broken_file("the header announces " + std::to_string(length) + " bytes, the file has " +
                       std::to_string(bytes.size()));
-  auto left = bytes.subspan(kHeaderSize, length - kHeaderSize);
+  auto left = bytes.subspan(header_size, length - header_size);
   const Chunk first = take_chunk(left);
-  if (first.type != kJson || first.data.empty()) throw broken_file("the first chunk is not JSON");
+  if (first.type != json_type || first.data.empty()) throw broken_file("the first chunk is not JSON");
   container.json = first.data;
   container.rest = left;
   while (!left.empty()) {
     const Chunk chunk = take_chunk(left);
-    if (chunk.type == kJson) throw broken_file("two JSON chunks");
-    if (chunk.type != kBin) continue;
+    if (chunk.type == json_type) throw broken_file("two JSON chunks");
+    if (chunk.type != bin_type) continue;
     if (container.has_bin) throw broken_file("two BIN chunks");
     container.bin = chunk.data;
     container.has_bin = true;
@@ -87,7 +87,7 @@ void put_chunk(std::vector<std::byte>& bytes, uint32_t type, std::span<const std
 GltfContainer open_container(std::span<const std::byte> bytes, const GltfLimits& limits) {
   if (bytes.empty()) throw Error(Status::invalid_file, "the file is empty", "pass a .glb or .gltf file");
   GltfContainer container;
-  container.binary = bytes.size() >= 4 && little_endian_at(bytes, 0) == kMagic;
+  container.binary = bytes.size() >= 4 && little_endian_at(bytes, 0) == glb_magic;
   if (container.binary) {
     open_binary(bytes, container);
   } else {
@@ -101,14 +101,14 @@ GltfContainer open_container(std::span<const std::byte> bytes, const GltfLimits&
 }
 
 std::vector<std::byte> glb_bytes(std::string_view json, std::span<const std::byte> chunks) {
-  constexpr uint64_t kHeaders = kHeaderSize + kChunkHeaderSize;
+  constexpr uint64_t headers = header_size + chunk_header_size;
   std::vector<std::byte> bytes;
-  const uint64_t size = kHeaders + padded(json.size()) + chunks.size();
-  put_u32(bytes, kMagic);
-  put_u32(bytes, kVersion);
+  const uint64_t size = headers + padded(json.size()) + chunks.size();
+  put_u32(bytes, glb_magic);
+  put_u32(bytes, format_version);
   put_u32(bytes, size);
   bytes.reserve(size);
-  put_chunk(bytes, kJson, std::as_bytes(std::span(json)), ' ');
+  put_chunk(bytes, json_type, std::as_bytes(std::span(json)), ' ');
   bytes.insert(bytes.end(), chunks.begin(), chunks.end());
   return bytes;
 }
@@ -116,7 +116,7 @@ std::vector<std::byte> glb_bytes(std::string_view json, std::span<const std::byt
 std::vector<std::byte> bin_chunk(std::span<const std::byte> data) {
   std::vector<std::byte> bytes;
   bytes.reserve(8 + padded(data.size()));
-  put_chunk(bytes, kBin, data, '\0');
+  put_chunk(bytes, bin_type, data, '\0');
   return bytes;
 }
 
@@ -130,8 +130,8 @@ std::vector<std::byte> with_content(const GltfContainer& container, std::string_
   std::vector<std::byte> chunks = bin_chunk(bin);
   size_t first = 0, behind = 0;  // where the old BIN chunk lies
   if (container.has_bin) {
-    first = static_cast<size_t>(container.bin.data() - container.rest.data()) - kChunkHeaderSize;
-    behind = first + kChunkHeaderSize + container.bin.size();
+    first = static_cast<size_t>(container.bin.data() - container.rest.data()) - chunk_header_size;
+    behind = first + chunk_header_size + container.bin.size();
   }
   const auto& rest = container.rest;
   chunks.insert(chunks.begin(), rest.begin(), rest.begin() + static_cast<std::ptrdiff_t>(first));

@@ -32,8 +32,8 @@ void move_members(OrderedJson& object, size_t room, const std::string* left_out 
 }  // namespace
 
 OrderedJson& new_object(OrderedJson& slot) {
-  constexpr size_t kRoom = 8;
-  fresh(slot, OrderedJson::value_t::object).get_ref<Object&>().reserve(kRoom);
+  constexpr size_t spare_room = 8;
+  fresh(slot, OrderedJson::value_t::object).get_ref<Object&>().reserve(spare_room);
   return slot;
 }
 
@@ -117,11 +117,11 @@ namespace {
 
 // "/nodes/3/weights/0" is node 3, weights.
 ChannelTarget pointed_at(const std::string& pointer) {
-  constexpr std::string_view kNodes = "/nodes/";
+  constexpr std::string_view nodes_pointer = "/nodes/";
   ChannelTarget result;
-  if (!pointer.starts_with(kNodes)) return result;
+  if (!pointer.starts_with(nodes_pointer)) return result;
   const char* const end = pointer.data() + pointer.size();
-  const auto [rest, error] = std::from_chars(pointer.data() + kNodes.size(), end, result.node);
+  const auto [rest, error] = std::from_chars(pointer.data() + nodes_pointer.size(), end, result.node);
   if (error != std::errc() || rest == end || *rest != '/') return {};
   result.path.assign(rest + 1, std::find(rest + 1, end, '/'));
   return result;

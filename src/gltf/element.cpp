@@ -40,23 +40,23 @@ Element element_of(const nlohmann::json& accessor, const Place& place) {
     std::string_view name;
     int32_t components, columns;
   };
-  constexpr std::array<Kind, 7> kKinds{{{"SCALAR", 1, 1},
-                                        {"VEC2", 2, 1},
-                                        {"VEC3", 3, 1},
-                                        {"VEC4", 4, 1},
-                                        {"MAT2", 4, 2},
-                                        {"MAT3", 9, 3},
-                                        {"MAT4", 16, 4}}};
+  constexpr std::array<Kind, 7> kinds{{{"SCALAR", 1, 1},
+                                       {"VEC2", 2, 1},
+                                       {"VEC3", 3, 1},
+                                       {"VEC4", 4, 1},
+                                       {"MAT2", 4, 2},
+                                       {"MAT3", 9, 3},
+                                       {"MAT4", 16, 4}}};
   Element element;
   element.type = static_cast<ComponentType>(integer(accessor, "componentType", place, 5120, 5126));
   if (component_size(element.type) == 0)
     fail_field(place, "componentType", "is not a component type of glTF");
-  element.count = integer(accessor, "count", place, 0, kMostBytes);
+  element.count = integer(accessor, "count", place, 0, max_file_bytes);
   const auto* normalized = member(accessor, "normalized");
   if (normalized && !normalized->is_boolean()) fail_field(place, "normalized", "is not a boolean");
   element.normalized = normalized && normalized->get<bool>();
   const std::string* name = text(accessor, "type", place);
-  for (const Kind& kind : kKinds) {
+  for (const Kind& kind : kinds) {
     if (!name || kind.name != *name) continue;
     element.components = kind.components;
     element.columns = kind.columns;

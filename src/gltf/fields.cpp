@@ -19,8 +19,8 @@ std::optional<int64_t> whole_number(const json& value) {
   if (value.is_number_integer()) return value.get<int64_t>();
   if (!value.is_number_float()) return std::nullopt;
   const double number = value.get<double>();
-  constexpr double kExact = 9007199254740992.0;  // 2^53
-  if (!(std::abs(number) <= kExact) || number != std::floor(number)) return std::nullopt;
+  constexpr double exact = 9007199254740992.0;  // 2^53
+  if (!(std::abs(number) <= exact) || number != std::floor(number)) return std::nullopt;
   return static_cast<int64_t>(number);
 }
 
@@ -94,9 +94,9 @@ const std::string* text(const json& object, const char* key, const Place& place)
 }
 
 const json& list(const json& root, const char* key) {
-  static const json kNone = json::array();
+  static const json no_entries = json::array();
   const json* found = member(root, key);
-  return found ? *found : kNone;
+  return found ? *found : no_entries;
 }
 
 const json* extension(const json& element, const char* name) {

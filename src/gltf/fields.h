@@ -15,8 +15,8 @@ struct Place {
   std::string text() const;
 };
 
-inline constexpr int64_t kMostBytes = int64_t{1}
-                                      << 40;  // products of two such counts and a stride stay in int64
+inline constexpr int64_t max_file_bytes = int64_t{1}
+                                          << 40;  // products of two such counts and a stride stay in int64
 
 // Throws invalid_file "accessors[3].count: ...".
 [[noreturn]] void fail_field(const Place& place, const char* key, const std::string& what);

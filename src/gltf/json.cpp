@@ -87,10 +87,10 @@ class Builder : public nlohmann::json_sax<Json> {
   bool binary(typename Json::binary_t&) override { return false; }  // not in JSON text
   bool start_object(size_t) override {
     Json& object = put(Json(Json::value_t::object));
-    constexpr int32_t kRoomForEdits = 4;
-    if constexpr (kOrdered)
+    constexpr int32_t room_for_edits = 4;
+    if constexpr (is_ordered)
       object.template get_ref<Object&>().reserve(
-          static_cast<size_t>(members_[next_object_++] + kRoomForEdits));
+          static_cast<size_t>(members_[next_object_++] + room_for_edits));
     open_.push_back(&object);
     return true;
   }
@@ -104,7 +104,7 @@ class Builder : public nlohmann::json_sax<Json> {
 
  private:
   using Object = typename Json::object_t;
-  static constexpr bool kOrdered = std::is_same_v<Json, nlohmann::ordered_json>;
+  static constexpr bool is_ordered = std::is_same_v<Json, nlohmann::ordered_json>;
 
   Json& put(Json value) {
     if (open_.empty()) return root_ = std::move(value);
@@ -113,7 +113,7 @@ class Builder : public nlohmann::json_sax<Json> {
       return array.emplace_back(std::move(value));
     }
     auto& object = open_.back()->template get_ref<Object&>();
-    if constexpr (kOrdered) {
+    if constexpr (is_ordered) {
       // Past its own emplace, which looks through all keys: quadratic, and the keys are known to differ.
       auto& list = static_cast<typename Object::Container&>(object);
       return list.emplace_back(std::move(key_), std::move(value)).second;

@@ -15,8 +15,8 @@ namespace {
 
 using Json = OrderedJson;
 
-constexpr const char* kGroupName = "focal_landmarks";
-constexpr int kVersion = 1;
+constexpr const char* group_name = "focal_landmarks";
+constexpr int format_version = 1;
 
 void describe(const GltfLandmark& landmark, Json& to) {
   at(to, "status") = name_of(landmark.status);
@@ -91,10 +91,10 @@ void LandmarkInserter::add_nodes(std::span<const GltfLandmark> landmarks) {
     describe(landmark, new_object(new_object(at(node, "extras"))["focal"]));
   }
   Json& node = nodes[group];
-  at(node, "name") = kGroupName;
+  at(node, "name") = group_name;
   if (!children.empty())
     for (Json& list = new_list(at(node, "children")); const size_t child : children) list.push_back(child);
-  new_object(new_object(at(node, "extras"))["focal"])["version"] = kVersion;
+  new_object(new_object(at(node, "extras"))["focal"])["version"] = format_version;
   scene_nodes.push_back(group);
 }
 
@@ -142,7 +142,7 @@ void LandmarkInserter::add_mesh_extras(std::span<const GltfLandmark> landmarks) 
     if (!extras.is_object())
       continue;  // extras may be anything; another's number or text is not ours to replace
     Json& own = new_object(at(extras, "focal"));
-    own["version"] = kVersion;
+    own["version"] = format_version;
     Json& list = new_list(own["landmarks"]);
     for (const GltfLandmark* landmark :
          entry == entries.end() ? std::vector<const GltfLandmark*>() : entry->second) {

@@ -68,13 +68,12 @@ void check_asset(const json& root) {
 
 // Extensions that say nothing on where the surface lies, and the two that are decoded.
 bool is_understood(const std::string& name) {
-  constexpr std::array kPrefixes{"KHR_materials_", "KHR_texture_", "EXT_texture_",  "MSFT_texture_",
-                                 "KHR_lights_",    "EXT_lights_",  "KHR_animation_"};
-  constexpr std::array kNames{"KHR_mesh_quantization", "EXT_meshopt_compression", "KHR_node_visibility",
-                              "KHR_xmp_json_ld"};
-  return std::any_of(kPrefixes.begin(), kPrefixes.end(),
-                     [&](const char* p) { return name.starts_with(p); }) ||
-         std::find(kNames.begin(), kNames.end(), name) != kNames.end();
+  constexpr std::array prefixes{"KHR_materials_", "KHR_texture_", "EXT_texture_",  "MSFT_texture_",
+                                "KHR_lights_",    "EXT_lights_",  "KHR_animation_"};
+  constexpr std::array known_extensions{"KHR_mesh_quantization", "EXT_meshopt_compression",
+                                        "KHR_node_visibility", "KHR_xmp_json_ld"};
+  return std::any_of(prefixes.begin(), prefixes.end(), [&](const char* p) { return name.starts_with(p); }) ||
+         std::find(known_extensions.begin(), known_extensions.end(), name) != known_extensions.end();
 }
 
 void check_extensions(const json& root) {
@@ -94,15 +93,15 @@ void check_extensions(const json& root) {
 }
 
 void check_buffer(const json& buffer, const Place& place) {
-  integer(buffer, "byteLength", place, 1, kMostBytes);
+  integer(buffer, "byteLength", place, 1, max_file_bytes);
   text(buffer, "uri", place);
 }
 
 // An extent inside the declared length of a buffer.
 void check_extent(const json& root, const json& owner, const Place& place) {
   const int64_t buffer = reference(owner, "buffer", place, count_of(root, "buffers"), true);
-  const int64_t offset = integer(owner, "byteOffset", place, 0, kMostBytes, 0);
-  const int64_t length = integer(owner, "byteLength", place, 1, kMostBytes);
+  const int64_t offset = integer(owner, "byteOffset", place, 0, max_file_bytes, 0);
+  const int64_t length = integer(owner, "byteLength", place, 1, max_file_bytes);
   const int64_t available = checked_integer(list(root, "buffers")[buffer], "byteLength");
   if (offset + length > available) fail_field(place, "byteLength", "reaches beyond its buffer");
 }
@@ -127,7 +126,7 @@ void check_entries(const json& root, const json& owner, const Place& place, cons
                    int64_t count, bool may_be_strided) {
   const int64_t index = reference(owner, "bufferView", place, count_of(root, "bufferViews"), true);
   const json& view = list(root, "bufferViews")[index];
-  const int64_t offset = integer(owner, "byteOffset", place, 0, kMostBytes, 0);
+  const int64_t offset = integer(owner, "byteOffset", place, 0, max_file_bytes, 0);
   const int64_t size = element.size();
   const int64_t stride = may_be_strided ? checked_integer(view, "byteStride", size) : size;
   if (stride < size) fail_field(place, "bufferView", "has a stride smaller than an element");
@@ -160,14 +159,14 @@ void check_accessor(const json& root, const json& accessor, const Place& place, 
   if (const json* sparse = object(accessor, "sparse", place)) check_sparse(root, *sparse, place, element);
 }
 
-constexpr int64_t kUnknown = -1;
+constexpr int64_t unknown = -1;
 
 // All attributes of a primitive or morph target name accessors with one entry a vertex. Returns that number.
 int64_t check_attributes(const json& root, const json& attributes, const Place& place, int64_t vertices) {
   for (const auto& [name, value] : attributes.items()) {
     const int64_t index = as_reference(value, name.c_str(), place, count_of(root, "accessors"));
     const Element element = element_of(list(root, "accessors")[index], place);
-    if (vertices != kUnknown && element.count != vertices)
+    if (vertices != unknown && element.count != vertices)
       fail_field(place, name.c_str(), "has another number of entries than the other attributes");
     if (name == "POSITION" && (element.components != 3 || element.type == ComponentType::u32))
       fail_field(place, "POSITION", "is not a VEC3 of a type that positions may have");
@@ -179,7 +178,7 @@ int64_t check_attributes(const json& root, const json& attributes, const Place& 
 void check_primitive(const json& root, const json& primitive, const Place& place) {
   const json* attributes = object(primitive, "attributes", place);
   if (!attributes) fail_field(place, "attributes", "is missing");
-  const int64_t vertices = check_attributes(root, *attributes, place, kUnknown);
+  const int64_t vertices = check_attributes(root, *attributes, place, unknown);
   if (member(primitive, "mode")) integer(primitive, "mode", place, 0, 6);
   const int64_t indices = reference(primitive, "indices", place, count_of(root, "accessors"));
   if (indices >= 0) {
@@ -234,9 +233,9 @@ void check_node(const json& root, const json& node, const Place& place) {
   reference(node, "mesh", place, count_of(root, "meshes"));
   reference(node, "skin", place, count_of(root, "skins"));
   check_references(root, node, "children", place);
-  constexpr std::array<std::pair<const char*, size_t>, 4> kSizes{
+  constexpr std::array<std::pair<const char*, size_t>, 4> sizes{
       {{"matrix", 16}, {"translation", 3}, {"rotation", 4}, {"scale", 3}}};
-  for (const auto& [key, size] : kSizes) {
+  for (const auto& [key, size] : sizes) {
     const json* values = array(node, key, place);
     if (!values) continue;
     const auto is_number = [](const json& value) { return value.is_number(); };

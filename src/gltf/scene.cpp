@@ -10,12 +10,12 @@
 namespace focal {
 namespace {
 
-template <int kSize>
-Eigen::Matrix<double, kSize, 1> numbers(const std::vector<double>& values,
-                                        const Eigen::Matrix<double, kSize, 1>& fallback) {
+template <int component_count>
+Eigen::Matrix<double, component_count, 1> numbers(const std::vector<double>& values,
+                                                  const Eigen::Matrix<double, component_count, 1>& fallback) {
   return values.empty() ? fallback
-                        : Eigen::Matrix<double, kSize, 1>(
-                              Eigen::Map<const Eigen::Matrix<double, kSize, 1>>(values.data()));
+                        : Eigen::Matrix<double, component_count, 1>(
+                              Eigen::Map<const Eigen::Matrix<double, component_count, 1>>(values.data()));
 }
 
 NodePose pose_of(const tiny::Node& node) {
@@ -133,7 +133,7 @@ void leave_out_hidden(const Nodes& nodes, std::vector<int32_t>& shown, std::vect
 // Whether joints that lie apart are all bound in one place.
 bool makes_no_shape(const SkinPlace& place, const std::vector<Matrix4>& world,
                     const std::vector<int>& joints) {
-  constexpr double kOnePlace = 1e-3;  // of the skeleton's size
+  constexpr double one_place = 1e-3;  // of the skeleton's size
   Eigen::AlignedBox3d bound, shown;
   for (size_t j = 0; j < joints.size(); ++j) {
     const Matrix4 bind = place.transform * place.inverse_bind[j].inverse();
@@ -141,7 +141,7 @@ bool makes_no_shape(const SkinPlace& place, const std::vector<Matrix4>& world,
     bound.extend(Vector3(bind.topRightCorner<3, 1>()));
     shown.extend(Vector3(world[static_cast<size_t>(joints[j])].topRightCorner<3, 1>()));
   }
-  return bound.diagonal().norm() < kOnePlace * shown.diagonal().norm();
+  return bound.diagonal().norm() < one_place * shown.diagonal().norm();
 }
 
 // The places of the skins that shown nodes wear.
@@ -249,9 +249,9 @@ SkinPlace skin_place(const GltfView& view, GltfBuffers& buffers, const NodeTree&
     if (tree.depth[from.joints[j]] < tree.depth[from.joints[top]]) top = j;
   }
   place.transform = place.carried[top];
-  constexpr double kSamePose = 1e-2;  // relative; exporters store single precision
+  constexpr double same_pose = 1e-2;  // relative; exporters store single precision
   for (const Matrix4& carried : place.carried)
-    place.is_other_pose |= (carried - place.transform).norm() > kSamePose * place.transform.norm();
+    place.is_other_pose |= (carried - place.transform).norm() > same_pose * place.transform.norm();
   place.is_posed = place.is_other_pose && makes_no_shape(place, world, from.joints);
   return place;
 }

@@ -12,13 +12,13 @@ namespace {
 constexpr std::array<int8_t, 256> base64_values() {
   std::array<int8_t, 256> values{};
   values.fill(-1);
-  constexpr std::string_view kAlphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  for (size_t i = 0; i < kAlphabet.size(); ++i) values[static_cast<uint8_t>(kAlphabet[i])] = int8_t(i);
+  constexpr std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  for (size_t i = 0; i < alphabet.size(); ++i) values[static_cast<uint8_t>(alphabet[i])] = int8_t(i);
   return values;
 }
 
 std::optional<std::vector<std::byte>> base64_decoded(std::string_view text) {
-  constexpr auto kValues = base64_values();
+  constexpr auto base64_table = base64_values();
   for (int padding = 0; padding < 2 && !text.empty() && text.back() == '='; ++padding) text.remove_suffix(1);
   if (text.size() % 4 == 1) return std::nullopt;
   std::vector<std::byte> bytes;
@@ -26,7 +26,7 @@ std::optional<std::vector<std::byte>> base64_decoded(std::string_view text) {
   uint32_t bits = 0;
   int bit_count = 0;
   for (const char c : text) {
-    const int8_t value = kValues[static_cast<uint8_t>(c)];
+    const int8_t value = base64_table[static_cast<uint8_t>(c)];
     if (value < 0) return std::nullopt;
     bits = (bits << 6 | static_cast<uint32_t>(value)) & 0xffffff;
     bit_count += 6;
@@ -40,11 +40,11 @@ std::optional<std::vector<std::byte>> base64_decoded(std::string_view text) {
 }  // namespace
 
 std::string printable(std::string_view text) {
-  constexpr size_t kLongest = 200;
-  std::string result(text.substr(0, kLongest));
+  constexpr size_t longest_name = 200;
+  std::string result(text.substr(0, longest_name));
   std::replace_if(
       result.begin(), result.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-  return text.size() > kLongest ? result + "..." : result;
+  return text.size() > longest_name ? result + "..." : result;
 }
 
 std::string percent_decoded(std::string_view uri) {
@@ -63,21 +63,21 @@ std::string percent_decoded(std::string_view uri) {
 bool is_data_uri(std::string_view uri) { return uri.starts_with("data:"); }
 
 std::optional<std::vector<std::byte>> data_uri_bytes(std::string_view uri) {
-  constexpr std::string_view kMarker = ";base64,";
-  const size_t marker = uri.substr(0, 256).find(kMarker);
+  constexpr std::string_view base64_marker = ";base64,";
+  const size_t marker = uri.substr(0, 256).find(base64_marker);
   if (!is_data_uri(uri) || marker == std::string_view::npos) return std::nullopt;
-  return base64_decoded(uri.substr(marker + kMarker.size()));
+  return base64_decoded(uri.substr(marker + base64_marker.size()));
 }
 
 std::string base64(std::span<const std::byte> bytes) {
-  constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  constexpr char base64_digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string result;
   for (size_t i = 0; i < bytes.size(); i += 3) {
     uint32_t group = 0;
     const size_t count = std::min<size_t>(3, bytes.size() - i);
     for (size_t k = 0; k < 3; ++k)
       group = group << 8 | (k < count ? std::to_integer<uint32_t>(bytes[i + k]) : 0);
-    for (size_t k = 0; k < 4; ++k) result += k <= count ? kDigits[group >> (18 - 6 * k) & 63] : '=';
+    for (size_t k = 0; k < 4; ++k) result += k <= count ? base64_digits[group >> (18 - 6 * k) & 63] : '=';
   }
   return result;
 }

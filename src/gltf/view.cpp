@@ -95,10 +95,10 @@ class Filter {
 
 // A whole number is one however it is written: tinygltf takes 1.0 for no index.
 void Filter::put(const json& value) {
-  constexpr double kExact = 9007199254740992.0;  // 2^53
+  constexpr double exact = 9007199254740992.0;  // 2^53
   if (value.is_number_float()) {
     const double number = value.get<double>();
-    text_ += std::abs(number) < kExact && number == std::floor(number)
+    text_ += std::abs(number) < exact && number == std::floor(number)
                  ? std::to_string(static_cast<int64_t>(number))
                  : value.dump();
   } else if (value.is_array()) {

@@ -36,7 +36,7 @@ void add(const std::string& name, const std::function<void(int threads)>& run, b
   auto* bench = benchmark::RegisterBenchmark(name.c_str(), [run](benchmark::State& state) {
     for (auto _ : state) run(static_cast<int>(state.range(0)));
   });
-  bench->ArgName("threads")->Arg(1)->MeasureProcessCPUTime()->UseRealTime()->Unit(benchmark::kMillisecond);
+  bench->ArgName("threads")->Arg(1)->MeasureProcessCPUTime()->UseRealTime()->Unit(benchmark::millisecond);
   if (threaded) bench->Arg(2);
 }
 
@@ -56,7 +56,7 @@ void add_refine() {
       ->Arg(2)
       ->UseManualTime()
       ->Iterations(5)
-      ->Unit(benchmark::kMillisecond);
+      ->Unit(benchmark::millisecond);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@
 namespace {
 
 using nlohmann::json;
-constexpr int kPatience = 60'000;  // ms for an answer: a busy machine draws slowly without a GPU
+constexpr int patience = 60'000;  // ms for an answer: a busy machine draws slowly without a GPU
 
 std::string decoded(const std::string& base64) {
   std::string bytes;
@@ -97,7 +97,7 @@ json Browser::receive() {
       return message;
     }
     pollfd ready{from_, POLLIN, 0};
-    if (::poll(&ready, 1, kPatience) != 1) throw std::runtime_error("the browser does not answer");
+    if (::poll(&ready, 1, patience) != 1) throw std::runtime_error("the browser does not answer");
     char block[65536];
     const ssize_t size = ::read(from_, block, sizeof block);
     if (size <= 0) throw std::runtime_error("the browser has gone");
@@ -145,7 +145,7 @@ void Browser::open(const std::string& address, const std::string& ready) {
   requests_.clear();
   complaints_.clear();
   call("Page.navigate", {{"url", address}});
-  for (int wait = 0; wait < kPatience / 100; ++wait) {
+  for (int wait = 0; wait < patience / 100; ++wait) {
     if (evaluate(ready) == true) return;
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }

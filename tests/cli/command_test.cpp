@@ -12,13 +12,13 @@
 
 namespace {
 
-const Keys kSummaryKeys = {
+const Keys summary_keys = {
     "marks",          "mean_edges",          "median_edges",  "p95_edges",      "mean_root_area_x100",
     "within_4_edges", "over_10_edges",       "swap_rate",     "flipped_meshes", "absent",
     "calibration",    "category_fit_median", "seconds_median"};
 
 void check_summary(const json& report) {
-  for (const std::string& key : kSummaryKeys) {
+  for (const std::string& key : summary_keys) {
     CAPTURE(key);
     CHECK(report.contains(key));
   }
@@ -313,7 +313,7 @@ TEST_CASE("the same landmarks, to the bit, for one thread and two") {
 
 TEST_CASE("eval: keys, subset and limit") {
   const json report = focal_json("eval " + eggs().model() + " " + eggs().folder());
-  Keys expected = kSummaryKeys;
+  Keys expected = summary_keys;
   expected.insert(
       {"set", "model", "preset", "descriptor", "distance", "split", "quality", "meshes", "landmarks"});
   CHECK(keys_of(report) == expected);
@@ -345,7 +345,7 @@ TEST_CASE("eval: keys, subset and limit") {
 TEST_CASE("cross-validate: every mesh once, no mesh in both") {
   const json report =
       focal_json("cross-validate " + eggs().folder() + " --split all --folds 3 --eigenpairs 40 --trees 4");
-  Keys expected = kSummaryKeys;
+  Keys expected = summary_keys;
   expected.insert({"set", "preset", "descriptor", "distance", "folds", "meshes", "landmarks"});
   CHECK(keys_of(report) == expected);
   check_summary(report);

@@ -50,7 +50,7 @@ Browser* browser() {
   return opened.get();
 }
 
-constexpr const char* kReady = "document.documentElement?.dataset.drawn !== undefined";
+constexpr const char* ready = "document.documentElement?.dataset.drawn !== undefined";
 
 // Share of the canvas that is painted, and share that has the red of many votes.
 json painted(Browser& page, const std::string& canvas) {
@@ -86,7 +86,7 @@ void check_quiet(const Browser& page) {
 
 void open(Browser& page, const std::string& renderer) {
   page.size(1280, 900);
-  page.open("file://" + report().page() + (renderer == "canvas" ? "#flat" : ""), kReady);
+  page.open("file://" + report().page() + (renderer == "canvas" ? "#flat" : ""), ready);
   REQUIRE(page.evaluate("document.documentElement.dataset.renderer") == renderer);
 }
 
@@ -119,7 +119,8 @@ void check_surface_and_keys(Browser& page) {
 
 TEST_CASE("the page holds all its parts and refers to nothing outside") {
   const std::string page = focal_cli::read_text_file(report().page());
-  for (const auto part : {focal_cli::kReportStyle, focal_cli::kReportScript, focal_cli::kReportThree}) {
+  for (const auto part :
+       {focal_cli::report_style_text, focal_cli::report_script_text, focal_cli::report_three_text}) {
     CHECK(page.find(part) != std::string::npos);
   }
   CHECK(page.find("{{") ==
@@ -144,7 +145,7 @@ TEST_CASE(
 
 TEST_CASE("three.js turns the meshes where it was bundled, quietly and without the network") {
   if (!browser()) return;
-  if (focal_cli::kReportThree.empty()) {
+  if (focal_cli::report_three_text.empty()) {
     std::cout << "skipped: no three.js was bundled into this build\n";
     return;
   }
@@ -209,7 +210,7 @@ TEST_CASE("the grid of errors is walked by arrow keys, Enter shows the cell; col
 TEST_CASE("nothing runs out of a narrow window; every control has a name; pictures are kept to look at") {
   if (!browser()) return;
   Browser& page = *browser();
-  open(page, focal_cli::kReportThree.empty() ? "canvas" : "three.js");
+  open(page, focal_cli::report_three_text.empty() ? "canvas" : "three.js");
   page.save_picture(FOCAL_PICTURES "/report-light.png");
   page.dark(true);
   page.save_picture(FOCAL_PICTURES "/report-dark.png");

@@ -10,7 +10,7 @@ using namespace focal_cli;
 
 namespace {
 
-constexpr const char* kSet = R"({"name": "beasts", "landmark_names": ["nose", "paw.L", "paw.R"],
+constexpr const char* set_json = R"({"name": "beasts", "landmark_names": ["nose", "paw.L", "paw.R"],
   "mirror": {"paw.R": "paw.L", "nose": "nose"}, "train": ["a", "b", "c"], "test": ["d"]})";
 
 std::string complaint(const std::string& folder) {
@@ -27,7 +27,7 @@ std::string complaint(const std::string& folder) {
 
 TEST_CASE("splits, all of them together, and the first few") {
   const ScratchFolder scratch;
-  scratch.write("set.json", kSet);
+  scratch.write("set.json", set_json);
   const SetFolder set = read_set(scratch.path.string() + "/");
   CHECK(set.name == "beasts");
   CHECK(set.mesh_path("a") == scratch / "a.glb");
@@ -40,14 +40,14 @@ TEST_CASE("splits, all of them together, and the first few") {
 
 TEST_CASE("a mirror holds both ways, and a landmark in the middle has none") {
   const ScratchFolder scratch;
-  scratch.write("set.json", kSet);
+  scratch.write("set.json", set_json);
   const std::map<std::string, std::string> expected = {{"paw.L", "paw.R"}, {"paw.R", "paw.L"}};
   CHECK(read_set(scratch.path.string()).mirror == expected);
 }
 
 TEST_CASE("marks: absent ones are left out, names the set lacks are refused") {
   const ScratchFolder scratch;
-  scratch.write("set.json", kSet);
+  scratch.write("set.json", set_json);
   const std::string head = R"({"format":"focal-landmarks","version":1,"mesh":"a.glb","landmarks":[)";
   scratch.write("a.landmarks.json",
                 head + R"({"name":"nose","vertex":3},{"name":"paw.L","status":"absent"}]})");

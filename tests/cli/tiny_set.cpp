@@ -11,8 +11,8 @@
 namespace {
 
 using Point = std::array<double, 3>;
-constexpr int kRings = 20, kSegments = 26;
-constexpr double kPi = 3.14159265358979323846;
+constexpr int rings = 20, segments = 26;
+constexpr double pi = 3.14159265358979323846;
 
 struct Egg {
   std::vector<float> positions;
@@ -24,10 +24,10 @@ Point unit(const Point& p) {
   return {p[0] / length, p[1] / length, p[2] / length};
 }
 
-const std::array<std::pair<const char*, Point>, 4> kPlaces = {{{"nose", unit({0, 0.3, 1})},
-                                                               {"horn.L", unit({0.7, 1, 0.1})},
-                                                               {"horn.R", unit({-0.7, 1, 0.1})},
-                                                               {"tail", unit({0, -0.4, -1})}}};
+const std::array<std::pair<const char*, Point>, 4> places = {{{"nose", unit({0, 0.3, 1})},
+                                                              {"horn.L", unit({0.7, 1, 0.1})},
+                                                              {"horn.R", unit({-0.7, 1, 0.1})},
+                                                              {"tail", unit({0, -0.4, -1})}}};
 
 double bump(const Point& direction, const Point& centre, double width) {
   const double apart =
@@ -38,8 +38,8 @@ double bump(const Point& direction, const Point& centre, double width) {
 void add_vertex(Egg& egg, const Point& direction, int number) {
   const double grown = 1 + 0.05 * std::sin(1.0 + 2.3 * number);
   double radius = 1;
-  for (size_t i = 0; i < kPlaces.size(); ++i) {
-    radius += (0.3 + 0.1 * static_cast<double>(i)) * grown * bump(direction, kPlaces[i].second, 0.4);
+  for (size_t i = 0; i < places.size(); ++i) {
+    radius += (0.3 + 0.1 * static_cast<double>(i)) * grown * bump(direction, places[i].second, 0.4);
   }
   const Point stretch = {1, 1.3 * grown, 0.8 / grown};
   for (size_t axis = 0; axis < 3; ++axis) {
@@ -50,9 +50,9 @@ void add_vertex(Egg& egg, const Point& direction, int number) {
 Egg make_egg(int number) {
   Egg egg;
   add_vertex(egg, {0, 1, 0}, number);
-  for (int ring = 1; ring < kRings; ++ring) {
-    for (int segment = 0; segment < kSegments; ++segment) {
-      const double theta = kPi * ring / kRings, phi = 2 * kPi * (segment + 0.5 * (ring % 2)) / kSegments;
+  for (int ring = 1; ring < rings; ++ring) {
+    for (int segment = 0; segment < segments; ++segment) {
+      const double theta = pi * ring / rings, phi = 2 * pi * (segment + 0.5 * (ring % 2)) / segments;
       add_vertex(egg, {std::sin(theta) * std::sin(phi), std::cos(theta), std::sin(theta) * std::cos(phi)},
                  number);
     }
@@ -60,13 +60,13 @@ Egg make_egg(int number) {
   add_vertex(egg, {0, -1, 0}, number);
   const auto at = [](int ring, int segment) -> uint32_t {
     if (ring == 0) return 0;
-    if (ring == kRings) return 1 + (kRings - 1) * kSegments;
-    return static_cast<uint32_t>(1 + (ring - 1) * kSegments + segment % kSegments);
+    if (ring == rings) return 1 + (rings - 1) * segments;
+    return static_cast<uint32_t>(1 + (ring - 1) * segments + segment % segments);
   };
-  for (int ring = 0; ring < kRings; ++ring) {
-    for (int s = 0; s < kSegments; ++s) {
+  for (int ring = 0; ring < rings; ++ring) {
+    for (int s = 0; s < segments; ++s) {
       if (ring > 0) egg.indices.insert(egg.indices.end(), {at(ring, s), at(ring + 1, s), at(ring, s + 1)});
-      if (ring + 1 < kRings)
+      if (ring + 1 < rings)
         egg.indices.insert(egg.indices.end(), {at(ring, s + 1), at(ring + 1, s), at(ring + 1, s + 1)});
     }
   }
@@ -111,7 +111,7 @@ std::string glb_of(const Egg& egg) {
 
 nlohmann::json marks_of(const Egg& egg, const std::string& mesh) {
   nlohmann::json marks = nlohmann::json::array();
-  for (const auto& [name, direction] : kPlaces) {
+  for (const auto& [name, direction] : places) {
     size_t best = 0;
     double best_cosine = -2;
     for (size_t v = 0; 3 * v < egg.positions.size(); ++v) {
@@ -130,7 +130,7 @@ nlohmann::json marks_of(const Egg& egg, const std::string& mesh) {
 
 void write_tiny_set(const ScratchFolder& scratch, int train, int test) {
   nlohmann::json set = {{"name", "eggs"}, {"mirror", {{"horn.R", "horn.L"}}}};
-  for (const auto& [name, direction] : kPlaces) set["landmark_names"].push_back(name);
+  for (const auto& [name, direction] : places) set["landmark_names"].push_back(name);
   for (int number = 0; number < train + test; ++number) {
     const std::string name = "egg" + std::to_string(number);
     const Egg egg = make_egg(number);

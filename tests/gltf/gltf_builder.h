@@ -96,15 +96,15 @@ inline std::string error_of(std::span<const std::byte> file, const focal::GltfLi
   }
 }
 
-inline const std::vector<float> kTetrahedron = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
-inline const std::vector<uint16_t> kTetrahedronFaces = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
+inline const std::vector<float> tetrahedron_corners = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+inline const std::vector<uint16_t> tetrahedron_faces = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
 
 inline GltfBuilder tetrahedron() {
   GltfBuilder file;
-  const int positions = file.add_accessor(kTetrahedron, "VEC3");
+  const int positions = file.add_accessor(tetrahedron_corners, "VEC3");
   file.root["accessors"][0]["min"] = {0, 0, 0};
   file.root["accessors"][0]["max"] = {1, 1, 1};
-  file.add_mesh(positions, file.add_accessor(kTetrahedronFaces, "SCALAR"));
+  file.add_mesh(positions, file.add_accessor(tetrahedron_faces, "SCALAR"));
   file.add_node({{"mesh", 0}});
   return file;
 }

@@ -103,10 +103,10 @@ int add_fours(GltfBuilder& file, const std::vector<T>& values) {
 // Two tetrahedra, each modelled about its own joint, in one primitive; the second joint stands 3 up and turned about z.
 inline GltfBuilder segments() {
   GltfBuilder file;
-  std::vector<float> positions = kTetrahedron;
-  positions.insert(positions.end(), kTetrahedron.begin(), kTetrahedron.end());
-  std::vector<uint16_t> faces = kTetrahedronFaces;
-  for (const uint16_t corner : kTetrahedronFaces) faces.push_back(static_cast<uint16_t>(corner + 4));
+  std::vector<float> positions = tetrahedron_corners;
+  positions.insert(positions.end(), tetrahedron_corners.begin(), tetrahedron_corners.end());
+  std::vector<uint16_t> faces = tetrahedron_faces;
+  for (const uint16_t corner : tetrahedron_faces) faces.push_back(static_cast<uint16_t>(corner + 4));
   const int places = file.add_accessor(positions, "VEC3");
   file.add_mesh(places, file.add_accessor(faces, "SCALAR"));
   std::vector<uint8_t> joints(32, 0);

@@ -9,9 +9,9 @@
 namespace focal_cli {
 namespace {
 
-constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_defined = std::numeric_limits<double>::quiet_NaN();
 
-double ratio(double part, double whole) { return whole > 0 ? part / whole : kUndefined; }
+double ratio(double part, double whole) { return whole > 0 ? part / whole : not_defined; }
 
 double distance(const std::optional<Position>& guess, const Position& mark) {
   if (!guess) return std::numeric_limits<double>::infinity();
@@ -25,7 +25,7 @@ std::vector<Outcome> all_outcomes(std::span<const MeshOutcome> meshes) {
 }
 
 // A landmark the mesh lacks cannot be right, however sure the detector is of it.
-bool is_right(const Outcome& outcome) { return outcome.marked && outcome.error_edges <= kRightEdges; }
+bool is_right(const Outcome& outcome) { return outcome.marked && outcome.error_edges <= right_edges; }
 
 // Mann-Whitney: the sum of the right ones' ranks by confidence, ties sharing their mean rank.
 double auroc_of(std::vector<Outcome> outcomes) {
@@ -47,22 +47,22 @@ double auroc_of(std::vector<Outcome> outcomes) {
 }
 
 Calibration calibrate(const std::vector<Outcome>& outcomes) {
-  Calibration result{0, auroc_of(outcomes), std::vector<CalibrationBin>(kCalibrationBins), 0, 0};
+  Calibration result{0, auroc_of(outcomes), std::vector<CalibrationBin>(calibration_bins), 0, 0};
   for (const Outcome& outcome : outcomes) {
-    const auto index = static_cast<size_t>(std::clamp(outcome.confidence, 0.0, 1.0) * kCalibrationBins);
-    CalibrationBin& bin = result.bins[std::min(index, kCalibrationBins - 1)];
+    const auto index = static_cast<size_t>(std::clamp(outcome.confidence, 0.0, 1.0) * calibration_bins);
+    CalibrationBin& bin = result.bins[std::min(index, calibration_bins - 1)];
     bin.count += 1;
     bin.confidence += outcome.confidence;
     bin.accuracy += is_right(outcome);
-    const bool sure = outcome.confidence >= kSureConfidence;
+    const bool sure = outcome.confidence >= sure_confidence;
     result.sure_count += sure;
     result.sure_right += sure && is_right(outcome);
   }
   result.sure_right = ratio(result.sure_right, static_cast<double>(result.sure_count));
-  for (size_t i = 0; i < kCalibrationBins; ++i) {
+  for (size_t i = 0; i < calibration_bins; ++i) {
     CalibrationBin& bin = result.bins[i];
-    bin.from = static_cast<double>(i) / kCalibrationBins;
-    bin.to = static_cast<double>(i + 1) / kCalibrationBins;
+    bin.from = static_cast<double>(i) / calibration_bins;
+    bin.to = static_cast<double>(i + 1) / calibration_bins;
     result.expected_error +=
         std::abs(bin.accuracy - bin.confidence);  // both still sums: share x difference x n
     bin.confidence = ratio(bin.confidence, static_cast<double>(bin.count));
@@ -109,7 +109,7 @@ double mean(std::span<const double> values) {
 }
 
 double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return kUndefined;
+  if (values.empty()) return not_defined;
   std::sort(values.begin(), values.end());
   const double place = share * static_cast<double>(values.size() - 1);
   const auto below = static_cast<size_t>(place);
@@ -131,7 +131,7 @@ std::vector<Outcome> judge(std::span<const Guess> guesses, const std::map<std::s
       const auto pair = mirror.find(guess.name);
       const auto other = pair == mirror.end() ? marks.end() : marks.find(pair->second);
       if (other != marks.end()) {
-        outcome.swapped = distance(guess.position, other->second) < error && outcome.error_edges > kSwapEdges;
+        outcome.swapped = distance(guess.position, other->second) < error && outcome.error_edges > swap_edges;
       }
     }
     outcomes.push_back(std::move(outcome));
@@ -151,7 +151,7 @@ double swapped_share(const MeshOutcome& mesh) {
 std::optional<bool> is_flipped(const MeshOutcome& mesh) {
   const double share = swapped_share(mesh);
   if (std::isnan(share)) return {};
-  return share > kFlippedShare;
+  return share > flipped_share;
 }
 
 Summary summarise(std::span<const MeshOutcome> meshes) {
@@ -171,8 +171,8 @@ Summary summarise(std::span<const MeshOutcome> meshes) {
   summary.median_edges = quantile(edges, 0.5);
   summary.p95_edges = quantile(edges, 0.95);
   summary.mean_root_area_x100 = 100 * mean(root_area);
-  summary.within_4_edges = 1 - share_over(edges, kRightEdges);
-  summary.over_10_edges = share_over(edges, kFarEdges);
+  summary.within_4_edges = 1 - share_over(edges, right_edges);
+  summary.over_10_edges = share_over(edges, far_edges);
   summary.category_fit_median = quantile(fits, 0.5);
   summary.seconds_median = quantile(seconds, 0.5);
   const std::vector<Outcome> outcomes = all_outcomes(meshes);
@@ -194,7 +194,7 @@ std::vector<LandmarkSummary> summarise_landmarks(std::span<const MeshOutcome> me
   for (const std::string& name : names) {
     const std::vector<double>& mine = errors[name];
     rows.push_back({name, mine.size(), mean(mine), quantile(mine, 0.5), quantile(mine, 0.95),
-                    quantile(mine, 1), 1 - share_over(mine, kRightEdges), share_over(mine, kFarEdges)});
+                    quantile(mine, 1), 1 - share_over(mine, right_edges), share_over(mine, far_edges)});
   }
   return rows;
 }

@@ -13,12 +13,12 @@
 
 namespace focal_cli {
 
-inline constexpr double kFarEdges = 10;  // over_10_edges
-inline constexpr double kSwapEdges = 8;  // nearer to the mirror's mark and farther off than this: swapped
-inline constexpr double kFlippedShare = 0.25;  // more of a mesh's pairs swapped than this: flipped
-inline constexpr double kRightEdges = 4;       // a landmark this near is right, when confidence is judged
-inline constexpr size_t kCalibrationBins = 10;
-inline constexpr double kSureConfidence =
+inline constexpr double far_edges = 10;  // over_10_edges
+inline constexpr double swap_edges = 8;  // nearer to the mirror's mark and farther off than this: swapped
+inline constexpr double flipped_share = 0.25;  // more of a mesh's pairs swapped than this: flipped
+inline constexpr double right_edges = 4;       // a landmark this near is right, when confidence is judged
+inline constexpr size_t calibration_bins = 10;
+inline constexpr double sure_confidence =
     0.9;  // a landmark found with this much is one a user will not check
 
 // What the detector said about one landmark. No position: it has no place at all, an infinite error.
@@ -70,7 +70,7 @@ struct Calibration {
   double expected_error = 0;  // sum over bins of share x |accuracy - confidence|
   double auroc = 0;           // chance that a right one has more confidence than a wrong one, ties half
   std::vector<CalibrationBin> bins;
-  size_t sure_count = 0;  // with kSureConfidence or more
+  size_t sure_count = 0;  // with sure_confidence or more
   double sure_right = 0;  // share of them that is right; NaN without any
 };
 

@@ -12,8 +12,8 @@
 namespace focal_cli {
 namespace {
 
-constexpr size_t kMostFolds = 10;    // leave-one-out up to ten meshes
-constexpr size_t kFewestMeshes = 3;  // one left out leaves two, the fewest that can be learned from
+constexpr size_t max_folds = 10;  // leave-one-out up to ten meshes
+constexpr size_t min_meshes = 3;  // one left out leaves two, the fewest that can be learned from
 
 struct CrossValidationOptions : CommonOptions, TrainOptions {
   std::string set, split = "train";
@@ -23,7 +23,7 @@ struct CrossValidationOptions : CommonOptions, TrainOptions {
 };
 
 size_t chosen_folds(const CrossValidationOptions& options, size_t meshes) {
-  if (meshes < kFewestMeshes) {
+  if (meshes < min_meshes) {
     throw CommandError("cross-validation needs at least 3 meshes, but there are " + std::to_string(meshes),
                        "mark more meshes, or choose another --split or --limit");
   }
@@ -32,7 +32,7 @@ size_t chosen_folds(const CrossValidationOptions& options, size_t meshes) {
         std::to_string(options.folds) + " folds are more than the " + std::to_string(meshes) + " meshes",
         "use --folds " + std::to_string(meshes) + " or fewer");
   }
-  return options.folds > 0 ? options.folds : std::min(meshes, kMostFolds);
+  return options.folds > 0 ? options.folds : std::min(meshes, max_folds);
 }
 
 // One fold: a model from the meshes of the other folds, measured on its own. A fold is one training and as

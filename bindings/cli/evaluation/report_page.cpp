@@ -91,9 +91,10 @@ std::string ReportPage::html(Json report) const {
   report["version"] = focal_version_string();
   report["up"] = "Y";
   const std::string data = script_safe(report.dump(-1, ' ', false, Json::error_handler_t::replace));
-  return filled(
-      kReportPage,
-      {{"style", kReportStyle}, {"script", kReportScript}, {"three", kReportThree}, {"data", data}});
+  return filled(report_page_text, {{"style", report_style_text},
+                                   {"script", report_script_text},
+                                   {"three", report_three_text},
+                                   {"data", data}});
 }
 
 }  // namespace focal_cli
