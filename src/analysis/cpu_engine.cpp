@@ -12,7 +12,7 @@
 namespace focal {
 namespace {
 
-constexpr int32_t samples_at_once = 128;  // whose tables are in memory; a multiple of 32
+constexpr int32_t samples_at_once = 128;  // samples whose tables are in memory; a multiple of 32
 
 class CpuEngine final : public Engine {
  public:
@@ -36,19 +36,19 @@ class CpuEngine final : public Engine {
     Stopwatch watch;
     const LeafVotes leaf_votes(model, features, execution);
     seconds.forest += watch.lap();
-    for_each_portion(
-        analysis, static_cast<int32_t>(features.rows()), execution,
-        [&](int32_t first, int32_t used, const SampleDistances& portion) {
-          seconds.geodesics += watch.lap();
-          for (int32_t from = 0; from < used; from += samples_at_once) {
-            const int32_t some = std::min(samples_at_once, used - from);
-            const VoteTables tables = leaf_votes.tables(first + from, some, execution);
-            seconds.forest += watch.lap();
-            add_distribution_votes(tables, some, {portion.steps.data(), portion.step, portion.vertices}, from,
-                                   votes, execution);
-            seconds.vote += watch.lap();
-          }
-        });
+    for_each_portion(analysis, static_cast<int32_t>(features.rows()), execution,
+                     [&](int32_t first, int32_t used, const SampleDistances& portion) {
+                       seconds.geodesics += watch.lap();
+                       for (int32_t from = 0; from < used; from += samples_at_once) {
+                         const int32_t some = std::min(samples_at_once, used - from);
+                         const VoteTables tables = leaf_votes.tables(first + from, some, execution);
+                         seconds.forest += watch.lap();
+                         add_distribution_votes(tables, some,
+                                                {portion.steps.data(), portion.step, portion.vertices}, from,
+                                                votes, execution);
+                         seconds.vote += watch.lap();
+                       }
+                     });
     return votes.leftCols(L);
   }
 
@@ -78,7 +78,7 @@ class CpuEngine final : public Engine {
 
 std::shared_ptr<const Engine> cpu_engine() {
   static const CpuEngine engine;
-  return {std::shared_ptr<void>(), &engine};  // owns nothing: no allocation, no count
+  return {std::shared_ptr<void>(), &engine};  // no owner: no allocation, no reference count
 }
 
 }  // namespace focal

@@ -8,8 +8,8 @@
 namespace focal {
 namespace {
 
-constexpr float farthest_joint =
-    1e6F;  // coordinates of a part's joints in its frame, where the mean joint distance is 1
+// For coordinates of a part's joints in its frame, where the mean joint distance is 1.
+constexpr float farthest_joint = 1e6F;
 
 // Reads the part's own model file, with the same validation.
 std::shared_ptr<const LandmarkModel> read_part(ByteReader& in, size_t joints) {
