@@ -1,6 +1,7 @@
-// Householder's reduction to a tridiagonal matrix, then QL steps with implicit shifts (A. Dubrulle, R. Martin,
-// J. Wilkinson, "The Implicit QL Algorithm", 1968). The steps on the tridiagonal matrix are a chain of numbers, but cheap;
-// all that is costly works on the rows of the eigenvector matrix, 32 of which lie side by side, blocks of rows in parallel.
+// Householder's reduction to a tridiagonal matrix, then QL steps with implicit shifts (A. Dubrulle, R.
+// Martin, J. Wilkinson, "The Implicit QL Algorithm", 1968). The steps on the tridiagonal matrix are
+// sequential but cheap; all expensive work is on the rows of the eigenvector matrix, 32 of them interleaved,
+// blocks of rows in parallel.
 #include "linear/symmetric_eigen.h"
 
 #include <algorithm>
@@ -25,10 +26,10 @@ struct Tridiagonal {
   RowMatrix reflectors;
 };
 
-// Row i of the matrix less v_i w + w_i v, and its product with `next`; all from entry `begin` on.
+// Row i of the matrix minus v_i w + w_i v, and its product with `next`; all from entry `begin` on.
 FOCAL_INLINE double update_body(double* row, const double* v, const double* w, double vi, double wi,
                                 const double* next, int64_t begin, int64_t n) {
-  constexpr int width = 16;  // running sums, the same for every vector width
+  constexpr int width = 16;  // partial sums, the same for every vector width
   double part[width] = {};
   int64_t j = begin;
   for (; j + width <= n; j += width)
@@ -49,7 +50,8 @@ FOCAL_MULTIVERSION(void update_rows(double* A, int64_t stride, const double* v, 
                    for (int64_t i = begin; i < n; ++i)
                        product[i] = update_body(A + i * stride, v, w, v[i], w[i], next, begin, n);)
 
-// The reflector that leaves of x only its entry `at`, and what it leaves. Zero where nothing is to be done.
+// The reflector that zeroes x except for its entry `at`, and the value of that entry. Zero where nothing
+// needs to be done.
 double make_reflector(const double* x, int64_t at, int64_t n, double* v) {
   std::fill_n(v, n, 0.0);
   double largest = 0, squared = 0;
@@ -69,8 +71,8 @@ Tridiagonal tridiagonalise(const Matrix& given) {
   RowMatrix A = given.selfadjointView<Eigen::Upper>();
   Tridiagonal result{std::vector<double>(n), std::vector<double>(n, 0.0), RowMatrix::Zero(n, n)};
   Vector none = Vector::Zero(n), w = none, product = none;
-  const double* v =
-      none.data();  // the last step's v and w are taken off the rows when the next step reads them
+  // The next step subtracts the last step's v and w from the rows when it reads them.
+  const double* v = none.data();
   for (int64_t k = 0; k < n; ++k) {
     for (int64_t j = k; j < n; ++j) A(k, j) -= v[k] * w[j] + w[k] * v[j];
     result.diagonal[k] = A(k, k);
@@ -91,7 +93,7 @@ struct Rotation {
   double c, s;
 };
 
-// QL steps on the tridiagonal matrix until its diagonal holds the eigenvalues; returns the rotations made.
+// QL steps on the tridiagonal matrix until its diagonal contains the eigenvalues; returns the rotations.
 std::vector<Rotation> diagonalise(std::vector<double>& d, std::vector<double>& e) {
   const auto n = static_cast<int32_t>(d.size());
   std::vector<Rotation> rotations;
@@ -113,7 +115,7 @@ std::vector<Rotation> diagonalise(std::vector<double>& d, std::vector<double>& e
       for (; i >= l; --i) {
         const double f = s * e[i], b = c * e[i], r = std::sqrt(f * f + g * g);
         e[i + 1] = r;
-        if (r == 0) {  // split earlier than thought
+        if (r == 0) {  // split earlier than expected
           d[i + 1] -= shifted;
           break;
         }
@@ -148,7 +150,7 @@ FOCAL_INLINE void transform_rows(const RowMatrix& reflectors, const std::vector<
       for (int64_t j = k + 1; j < n; ++j)
         for (int i = 0; i < vectors; ++i) at(j)[i] -= v[j] * sum[i];
     }
-    // Rotations of one step go from column to column: what the next one needs stays in registers.
+    // Rotations of one step go from column to column: the column shared with the next one stays in registers.
     int32_t column = rotations.empty() ? 0 : rotations[0].column + 1;
     Lane carried[vectors];
     for (int i = 0; i < vectors; ++i) carried[i] = at(column)[i];
@@ -178,7 +180,7 @@ SymmetricEigen symmetric_eigen(const Matrix& A, const Execution& execution) {
                 "the mesh may hold non-finite positions or degenerate triangles; repair it first");
   const Matrix upper = A.triangularView<Eigen::Upper>();
   const double scale = std::max(upper.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min());
-  Tridiagonal tridiagonal = tridiagonalise(upper / scale);  // squares stay in range
+  Tridiagonal tridiagonal = tridiagonalise(upper / scale);  // keeps squares in range
   auto& values = tridiagonal.diagonal;
   const auto rotations = diagonalise(values, tridiagonal.beside);
   std::vector<int32_t> order(n);

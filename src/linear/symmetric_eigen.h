@@ -1,4 +1,4 @@
-// All eigenpairs of a dense symmetric matrix of a few hundred rows, threaded and in vectors.
+// All eigenpairs of a dense symmetric matrix of a few hundred rows, threaded and vectorised.
 #pragma once
 #include "base/matrix.h"
 #include "base/parallel.h"
@@ -10,10 +10,10 @@ struct SymmetricEigen {
   Matrix vectors;  // columns, orthonormal: A vectors = vectors diag(values)
 };
 
-// The upper triangle of A is read. Throws not_converged when A is not finite.
+// Only the upper triangle of A is read. Throws not_converged when A is not finite.
 SymmetricEigen symmetric_eigen(const Matrix& A, const Execution& execution);
 
-// A B, by register tiles, shared out over threads. Sizes that are no multiple of 32 are filled up.
+// A B, by register tiles, distributed over threads. Sizes that are not a multiple of 32 are padded.
 Matrix dense_product(const Matrix& A, const Matrix& B, const Execution& execution);
 
 }  // namespace focal

@@ -16,7 +16,7 @@ SparseMatrix shifted(SparseMatrix A, double shift) {
   return A;
 }
 
-// y = (A + shift I)^-1 x, in the interface that Spectra asks for.
+// y = (A + shift I)^-1 x, in the interface that Spectra requires.
 class ShiftedInverse {
  public:
   using Scalar = double;
