@@ -520,11 +520,11 @@ typedef struct focal_train_params {
   int32_t proxy_vertices;
   uint64_t seed; /* the same seed gives the same bits. Default 0 */
   /* 1: learn confidences by leaving out one shape at a time; takes about three quarters of the training time.
-     0: every confidence is about a half, and no landmark is reported as absent. Default 1. Preset paper does
-     not support it. */
+     0: every confidence is about a half, and no landmark is reported as absent. Default 1. Preset paper has no
+     confidences. */
   int32_t learn_confidence;
-  /* Total number of shapes learned from rigged characters, copies in other poses included, 2..10000; raised to
-     one and a half times the number of characters where it is lower. Default 16. */
+  /* Total number of shapes learned from rigged characters, copies in other poses included, 2..10000; at least
+     one and a half times the number of characters. Default 16. */
   int32_t rigged_shapes;
   /* Stored in the model, used in detection too. Default FOCAL_DESCRIPTOR_SI_HKS. */
   focal_descriptor descriptor;

@@ -19,7 +19,7 @@ constexpr uint32_t section_limit = 1024;
 
 [[noreturn]] void refuse(const std::string& message) {
   throw Error(Status::invalid_file, message,
-              "The file is damaged or was not written by focal: save it again.");
+              "The file is corrupt or was not written by focal: save it again.");
 }
 
 uint32_t header_checksum(std::span<const std::byte> header_and_table) {

@@ -14,7 +14,8 @@
 namespace focal {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "glTF data is little-endian and read as it stands");
+static_assert(std::endian::native == std::endian::little,
+              "glTF data is little-endian and read without conversion");
 
 // Position of the entries: entry i starts at data[i * stride].
 struct Source {

@@ -143,7 +143,7 @@ Detection detect_afresh(const std::shared_ptr<const LandmarkModel>& model,
 void check_suits(const SurfaceAnalysis& analysis, const LandmarkModel& model) {
   if (!suits(analysis.params, analysis_params_of(model.params)))
     throw Error(Status::invalid_argument, "the analysis was made with other parameters than this model's",
-                "analyse the mesh once more, by the parameters of this model");
+                "analyse the mesh again with the parameters of this model");
 }
 
 std::vector<int32_t> placed_landmarks(const Detection& detection) {

@@ -378,7 +378,7 @@ const char* reason(SceneryKind kind) {
     case SceneryKind::enclosure:
       return "a convex shape that contains most of the character";
     case SceneryKind::apart:
-      return "it stands apart from the character";
+      return "separate from the character";
   }
   return "";
 }

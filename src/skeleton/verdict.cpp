@@ -30,7 +30,7 @@ constexpr Indication indications[] = {
      "a training character that takes this pose does not cover the mesh"},
     {&RigMeasures::category_fit, 0.4, 0, 1.5, 0.7, "the mesh is unlike the characters that taught the model"},
     {&RigMeasures::heading_margin, 0.06, 0, 0.3, 0.7,
-     "a training character that faces the other way lies nearly as near to the surface"}};
+     "a training character that faces the other way fits the surface nearly as well"}};
 
 // Defects that count regardless of the rest: factors, 1 up to `fine`, then linear to `least` at `bad` and
 // beyond.
