@@ -1,5 +1,5 @@
-// focal.hpp - focal.h with owners and exceptions for C++17 and later. Header only; every call is one call of
-// focal.h, whose rules hold.
+// focal.hpp - owning handles and exceptions over focal.h, for C++17 and later. Header only; every call forwards to
+// one function of focal.h, whose rules apply (shapes, units, errors, threads). A failed call throws focal::Error.
 //
 //   focal::Context context;
 //   focal::Model model(context, "humans.focal");
@@ -21,6 +21,7 @@
 namespace focal {
 inline namespace abi {
 
+// Carries the focal_status of a failed call; what() is the text of focal_last_error().
 class Error : public std::runtime_error {
  public:
   Error(focal_status status, const std::string& text) : std::runtime_error(text), status_(status) {}
@@ -30,11 +31,12 @@ class Error : public std::runtime_error {
   focal_status status_;
 };
 
+// Throws Error unless the status is FOCAL_OK.
 inline void check(focal_status status) {
   if (status != FOCAL_OK) throw Error(status, focal_last_error());
 }
 
-// A struct of focal.h with its struct_size and defaults: auto params = focal::init(focal_train_params_init);
+// Returns a struct of focal.h with its struct_size and defaults set: auto params = focal::init(focal_train_params_init);
 template <class T>
 T init(focal_status (*initialise)(T*, size_t)) {
   T value;
@@ -42,7 +44,7 @@ T init(focal_status (*initialise)(T*, size_t)) {
   return value;
 }
 
-// Owns one handle; moves, never copies.
+// Owns one handle: movable, not copyable, destroys the handle at the end.
 template <class Handle, focal_status (*destroy)(Handle*)>
 class Owner {
  public:
@@ -118,7 +120,7 @@ class Mesh : public Owner<focal_mesh, focal_mesh_destroy> {
       result.emplace_back(focal_mesh_warning(handle_, i));
     return result;
   }
-  // The closed surface round it, as a .glb to look at.
+  // Writes the closed surface around the mesh as a .glb for inspection.
   void write_wrap_gltf(const std::string& path) const {
     check(focal_mesh_write_wrap_gltf(handle_, path.c_str()));
   }
@@ -133,7 +135,7 @@ class Mesh : public Owner<focal_mesh, focal_mesh_destroy> {
     check(focal_mesh_closest_point(handle_, position, &point));
     return point;
   }
-  // vertices x focal_descriptor_dimension(descriptor), row-major.
+  // Descriptors of the given vertices: vertices.size() x focal_descriptor_dimension(descriptor), row-major.
   std::vector<float> describe(const Context& context, focal_descriptor descriptor,
                               const std::vector<uint32_t>& vertices, Task* task = nullptr) const {
     std::vector<float> result(vertices.size() * focal_descriptor_dimension(descriptor));
@@ -141,6 +143,7 @@ class Mesh : public Owner<focal_mesh, focal_mesh_destroy> {
                               task ? task->get() : nullptr, result.data()));
     return result;
   }
+  // Distance from the source to each vertex, in the mesh's units; INFINITY where no triangle uses the vertex.
   std::vector<float> distances(const Context& context, focal_distance distance,
                                const focal_surface_point& source, Task* task = nullptr) const {
     std::vector<float> result(static_cast<size_t>(info().vertex_count));
@@ -170,7 +173,7 @@ class Analysis : public Owner<focal_analysis, focal_analysis_destroy> {
 class Detection : public Owner<focal_detection, focal_detection_destroy> {
  public:
   using Owner::Owner;
-  // The names are borrowed from this detection.
+  // One entry per landmark of the model; the names are borrowed from this detection.
   std::vector<focal_landmark> landmarks() const {
     std::vector<focal_landmark> result(info().landmark_count, init(focal_landmark_init));
     for (size_t i = 0; i < result.size(); ++i)
@@ -193,22 +196,26 @@ class Detection : public Owner<focal_detection, focal_detection_destroy> {
       result.emplace_back(focal_detection_warning(handle_, i));
     return result;
   }
+  // Vote map of one landmark: a value in 0..1 for each of the caller's vertices.
   std::vector<float> votes(uint32_t landmark) const {
     std::vector<float> result(static_cast<size_t>(info().vertex_count));
     check(focal_detection_votes(handle_, landmark, result.size(), result.data()));
     return result;
   }
+  // Geodesic distance from one landmark to each of the caller's vertices, in the mesh's units.
   std::vector<float> distances(uint32_t landmark) const {
     std::vector<float> result(static_cast<size_t>(info().vertex_count));
     check(focal_detection_distances(handle_, landmark, result.size(), result.data()));
     return result;
   }
-  // A label for each of the caller's triangles, -1 where there is none.
+  // A label for each of the caller's triangles, -1 for no label.
   std::vector<int32_t> segments(focal_segmentation method) const {
     std::vector<int32_t> result(static_cast<size_t>(info().triangle_count));
     check(focal_detection_segment(handle_, method, nullptr, result.size(), result.data()));
     return result;
   }
+  // Membership (0..1) of each of the caller's vertices in the region within radius, a share of sqrt(surface area),
+  // of one landmark.
   std::vector<float> region(uint32_t landmark, double radius) const {
     std::vector<float> result(static_cast<size_t>(info().vertex_count));
     check(focal_detection_region(handle_, landmark, radius, result.size(), result.data()));
@@ -238,7 +245,7 @@ class TrainingSet : public Owner<focal_training_set, focal_training_set_destroy>
 class Model : public Owner<focal_model, focal_model_destroy> {
  public:
   using Owner::Owner;
-  // One that comes with focal, by its name: see Context::stock_models.
+  // Loads a stock model by its name, see Context::stock_models.
   static Model stock(const Context& context, const std::string& name) {
     focal_model* model = nullptr;
     check(focal_model_load_stock(context.get(), name.c_str(), &model));
@@ -281,7 +288,7 @@ class Model : public Owner<focal_model, focal_model_destroy> {
     check(focal_model_detect(handle_, mesh.get(), params, task ? task->get() : nullptr, &detection));
     return Detection(detection);
   }
-  // Once a mesh, for many models.
+  // Analyses a mesh once, for detection with several models.
   Analysis analyse(const Mesh& mesh, const focal_detect_params* params = nullptr,
                    Task* task = nullptr) const {
     focal_analysis* analysis = nullptr;
@@ -289,7 +296,7 @@ class Model : public Owner<focal_model, focal_model_destroy> {
     return Analysis(analysis);
   }
   struct Regression {
-    std::vector<float> regressed, truth;  // one a sample of the analysis
+    std::vector<float> regressed, truth;  // one value per sample of the analysis
   };
   Regression regress(const Analysis& analysis, uint32_t landmark, const focal_surface_point& truth,
                      Task* task = nullptr) const {

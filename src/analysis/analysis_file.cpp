@@ -31,7 +31,7 @@ std::vector<std::byte> info_section(const SurfaceAnalysis& analysis) {
   return out.take();
 }
 
-// The proxy as it is: decimating again could differ by a rounding on another machine.
+// Stores the proxy itself: decimating again could differ by a rounding error on another machine.
 std::vector<std::byte> proxy_section(const Proxy& proxy) {
   ByteWriter out;
   const bool own = !proxy.is_full();

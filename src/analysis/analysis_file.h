@@ -1,4 +1,4 @@
-// An analysis as bytes: what took time to compute. docs/model-format.md describes it.
+// Serialises the expensive parts of an analysis. docs/model-format.md describes the file.
 #pragma once
 #include <cstddef>
 #include <memory>
@@ -11,8 +11,8 @@ namespace focal {
 
 std::vector<std::byte> serialise(const SurfaceAnalysis& analysis);
 
-// mesh: the one that was analysed. Operators and factors are made anew, which takes little time.
-// Throws invalid_file (also for another mesh than that of the analysis) and unsupported_version.
+// mesh: the one that was analysed. Operators and factors are recomputed, which takes little time. Throws
+// invalid_file (also for a mesh other than that of the analysis) and unsupported_version.
 SurfaceAnalysis parse_analysis(std::span<const std::byte> file, std::shared_ptr<const PreparedMesh> mesh,
                                const Execution& execution);
 

@@ -12,7 +12,7 @@
 namespace focal {
 namespace {
 
-constexpr int32_t samples_at_once = 128;  // whose tables are in memory; a multiple of 32
+constexpr int32_t samples_at_once = 128;  // samples whose tables are in memory; a multiple of 32
 
 class CpuEngine final : public Engine {
  public:
@@ -78,7 +78,7 @@ class CpuEngine final : public Engine {
 
 std::shared_ptr<const Engine> cpu_engine() {
   static const CpuEngine engine;
-  return {std::shared_ptr<void>(), &engine};  // owns nothing: no allocation, no count
+  return {std::shared_ptr<void>(), &engine};  // no owner: no allocation, no reference count
 }
 
 }  // namespace focal

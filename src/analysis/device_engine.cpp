@@ -8,7 +8,8 @@
 namespace focal {
 namespace {
 
-// What a device does with dense matrices: more vertices take too much memory, and very few too little time to be worth it.
+// Limits of the device's dense matrices: more vertices take too much memory, fewer are not worth the
+// overhead.
 constexpr int32_t min_vertices = 512, max_vertices = 12500;
 
 class DeviceEngine final : public Engine {
@@ -19,7 +20,7 @@ class DeviceEngine final : public Engine {
     return surface_->spectrum(params);
   }
 
-  // Those that are no functions of the spectrum are the CPU's work.
+  // Descriptors that are not functions of the spectrum are computed on the CPU.
   RowMatrixf descriptors(const SurfaceAnalysis& analysis, const Eigenbasis& basis,
                          const Execution& execution) const override {
     const DescriptorKind& kind = descriptor_kinds()[analysis.params.descriptor];
@@ -30,7 +31,7 @@ class DeviceEngine final : public Engine {
     return cpu_engine()->descriptors(analysis, basis, execution);
   }
 
-  // Forest, distances and votes are one call.
+  // The device computes forest, distances and votes in one call.
   RowMatrixf votes(const SurfaceAnalysis& analysis, const LandmarkModel& model, const RowMatrixf& features,
                    const Execution&, StageSeconds& seconds) const override {
     Stopwatch watch;
@@ -71,7 +72,7 @@ bool open_on_device(SurfaceAnalysis& analysis, const Execution& execution) {
   if (!execution.backend || analysis.params.distance != 0 || n < min_vertices || n > max_vertices ||
       n < 3 * analysis.params.eigenpair_count)
     return false;
-  if (analysis.proxy.coarse->components > 1) return false;  // its distances know no gaps between parts
+  if (analysis.proxy.coarse->components > 1) return false;  // the device has no bridges between parts
   make_surface_operators(analysis, {}, execution);
   const auto metric = std::make_shared<DeviceDistance>(analysis.proxy.coarse, analysis.operators,
                                                        analysis.params.paper_exact, *execution.backend);

@@ -13,7 +13,7 @@
 namespace focal {
 namespace {
 
-// Of the forest's trees one after the other.
+// The forest's trees, concatenated.
 struct FlatForest {
   std::vector<int32_t> node_start = {0}, leaf_start_start = {0}, leaf_sample_start = {0};
   std::vector<int32_t> feature, child, leaf_start, leaf_sample;
@@ -58,11 +58,11 @@ std::shared_ptr<void> upload_forest(const Backend& backend, const LandmarkModel&
   return {made, backend.table().forest_destroy};
 }
 
-// A device that errs without a word must not pass for one that works.
+// Detects a device that fails silently.
 template <class T>
 void require_numbers(const T* values, int64_t count) {
   if (Eigen::Map<const Eigen::Array<T, Eigen::Dynamic, 1>>(values, count).allFinite()) return;
-  throw BackendFailure({0, "the device's results make no sense"});
+  throw BackendFailure({0, "the device returned invalid results"});
 }
 
 }  // namespace
@@ -119,7 +119,7 @@ RowMatrixf DeviceSurface::si_hks(const Vector& lambda, double area, std::span<co
 
 RowMatrixf DeviceSurface::spectral_signatures(const Matrix& weights, double scale,
                                               std::span<const int32_t> vertices) const {
-  ComputeSignature signature{};  // by columns here is by rows there, transposed
+  ComputeSignature signature{};  // column-major here is the transposed row-major there
   signature.times = static_cast<int32_t>(weights.cols()), signature.scale = scale;
   signature.decay = weights.data();
   return signatures(signature, signature.times, vertices);
@@ -169,7 +169,7 @@ std::vector<std::vector<int32_t>> DeviceSurface::peaks(int32_t landmarks, int32_
   std::vector<std::vector<int32_t>> result(landmarks);
   for (size_t i = 0; i < found.size(); ++i) {
     if (found[i] < -1 || found[i] >= vertices_)
-      throw BackendFailure({0, "the device's results make no sense"});
+      throw BackendFailure({0, "the device returned invalid results"});
     if (found[i] >= 0) result[i / static_cast<size_t>(count)].push_back(found[i]);
   }
   return result;
@@ -200,7 +200,7 @@ RowMatrixf DeviceSurface::isoline_votes(std::span<const int32_t> samples, const 
 FunctionalMap DeviceSurface::zoom_out(const SpectralSamples& from, const SpectralTargets& to,
                                       PlacesBetween initial, const MapParams& params) const {
   const std::scoped_lock lock(mutex_);
-  constexpr int32_t tile = 4;  // of the CPU's kernels: rows come in fours
+  constexpr int32_t tile = 4;  // of the CPU's kernels: rows are in groups of four
   const auto points = static_cast<int32_t>(from.Phi.rows());
   const auto most = static_cast<int32_t>(
       std::min({Eigen::Index{params.last}, from.Phi.cols(), to.Phi.cols()}) / tile * tile);
@@ -222,7 +222,7 @@ FunctionalMap DeviceSurface::zoom_out(const SpectralSamples& from, const Spectra
   require_numbers(map.C.data(), map.C.size()), require_numbers(error.data(), 2 * int64_t{points});
   require_numbers(map.places.weight.data(), static_cast<int64_t>(map.places.weight.size()));
   for (const int32_t vertex : map.places.vertex)
-    if (vertex < 0 || vertex >= vertices_) throw BackendFailure({0, "the device's results make no sense"});
+    if (vertex < 0 || vertex >= vertices_) throw BackendFailure({0, "the device returned invalid results"});
   for (size_t p = 0; p < map.image.size(); ++p) map.image[p] = map.places.vertex[p * PlacesBetween::vertices];
   double away = 0, size = 0;
   for (size_t p = 0; p < map.image.size(); ++p)

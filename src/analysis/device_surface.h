@@ -1,4 +1,5 @@
-// One analysed surface on a GPU: what analysis and detection ask of it. Everything here throws BackendFailure.
+// One analysed surface on a GPU, with the operations that analysis and detection use. All functions throw
+// BackendFailure.
 #pragma once
 #include <memory>
 #include <mutex>
@@ -17,7 +18,8 @@
 
 namespace focal {
 
-// Thread-safe: one call at a time. The device's memory is free again once it is closed; nothing may be asked then.
+// Thread-safe: one call at a time. Closing the surface frees the device's memory; no operation may be called
+// afterwards.
 class DeviceSurface {
  public:
   DeviceSurface(const Backend& backend, const MatrixX3& positions, const Operators& operators,
@@ -29,9 +31,9 @@ class DeviceSurface {
   bool is_open() const;
 
   Eigenbasis spectrum(const EigenParams& params) const;
-  // SI-HKS of some vertices, after the spectrum, whose eigenvalues these are.
+  // SI-HKS of the given vertices, after the spectrum; lambda: its eigenvalues.
   RowMatrixf si_hks(const Vector& lambda, double area, std::span<const int32_t> vertices) const;
-  // scale times the squared eigenfunctions of some vertices times weights: eigenpairs x components.
+  // scale x (squared eigenfunctions of the given vertices) x weights; weights: eigenpairs x components.
   RowMatrixf spectral_signatures(const Matrix& weights, double scale,
                                  std::span<const int32_t> vertices) const;
   // out: vertices x sources.
@@ -39,16 +41,17 @@ class DeviceSurface {
   // Votes of the samples, one row of descriptors each: vertices x VoteTables::padded(landmarks).
   RowMatrixf votes(const LandmarkModel& model, std::span<const int32_t> samples,
                    const Eigen::Ref<const RowMatrixf>& descriptors) const;
-  // As find_peaks with connected balls as surroundings, of the last votes, once.
+  // Like find_peaks with connected balls as surroundings, on the last votes; once per votes.
   std::vector<std::vector<int32_t>> peaks(int32_t landmarks, int32_t count, double radius) const;
-  // Votes of the samples along isolines at radii (samples x columns, shares of a sample's largest distance) with exp(-mu
-  // radius^2), averaged over a share of a vertex' own largest distance: vertices x columns.
+  // Votes of the samples along isolines at radii (samples x columns, relative to a sample's largest distance)
+  // with weight exp(-mu radius^2), averaged over a neighbourhood given relative to each vertex' own largest
+  // distance: vertices x columns.
   RowMatrixf isoline_votes(std::span<const int32_t> samples, const RowMatrixf& radii, double mu,
                            const Edges& edges, float neighbourhood) const;
-  // As zoom_out; to.Phi must be the same at every call.
+  // Like zoom_out; to.Phi must be the same in every call.
   FunctionalMap zoom_out(const SpectralSamples& from, const SpectralTargets& to, PlacesBetween initial,
                          const MapParams& params) const;
-  // What the device did since the last time, by its own clock; at most 64 stages.
+  // The stages that the device has run since the last call, timed by its own clock; at most 64.
   std::vector<ComputeStage> stages() const;
 
  private:
@@ -61,7 +64,7 @@ class DeviceSurface {
   void* surface_ = nullptr;
 };
 
-// The heat method on the device; once the surface is closed, on the CPU, prepared when first asked.
+// The heat method on the device. Once the surface is closed, on the CPU, prepared at the first call.
 class DeviceDistance final : public Distance {
  public:
   DeviceDistance(std::shared_ptr<const PreparedMesh> mesh, const Operators& operators,

@@ -1,5 +1,5 @@
-// The heavy operations on one analysed surface: the CPU does them with the stages of this library, a device with those of its module.
-// Results agree to rounding; tests/compute compares them.
+// The expensive operations on one analysed surface: on the CPU by the stages of this library, on a device by
+// its module. Results agree to rounding; tests/compute compares them.
 #pragma once
 #include <memory>
 #include <vector>
@@ -16,22 +16,23 @@ namespace focal {
 
 struct SurfaceAnalysis;
 
-// Immutable, thread-safe. A device's engine throws BackendFailure; the caller then starts anew on the CPU (with_fallback).
+// Immutable, thread-safe. A device's engine throws BackendFailure; the caller then restarts on the CPU
+// (with_fallback).
 class Engine {
  public:
   virtual ~Engine() = default;
 
   virtual Eigenbasis spectrum(const SurfaceAnalysis& analysis, const EigenParams& params,
                               const Execution& execution) const = 0;
-  // Of the samples; after the spectrum, which gave the basis.
+  // Descriptors of the samples; called after the spectrum, which computed the basis.
   virtual RowMatrixf descriptors(const SurfaceAnalysis& analysis, const Eigenbasis& basis,
                                  const Execution& execution) const = 0;
   // Votes of the first samples, one row of features each: vertices x landmarks.
   virtual RowMatrixf votes(const SurfaceAnalysis& analysis, const LandmarkModel& model,
                            const RowMatrixf& features, const Execution& execution,
                            StageSeconds& seconds) const = 0;
-  // Of these votes, which are the last that were cast: up to `count` vertices a landmark, the best first, each outside the connected
-  // balls of this radius round the better ones.
+  // Peaks of these votes, which must be the last computed: up to `count` vertices per landmark, the best
+  // first, each outside the connected balls of this radius around the better ones.
   virtual std::vector<std::vector<int32_t>> peaks(const SurfaceAnalysis& analysis, const RowMatrixf& votes,
                                                   int32_t count, double radius,
                                                   const Execution& execution) const = 0;
@@ -47,7 +48,7 @@ class Engine {
   virtual std::vector<ComputeStage> stages() const { return {}; }
 };
 
-// One for all surfaces.
+// A single engine for all surfaces.
 std::shared_ptr<const Engine> cpu_engine();
 
 }  // namespace focal

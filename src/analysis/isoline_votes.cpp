@@ -14,7 +14,8 @@ RowMatrixf cast_isoline_votes(const SurfaceAnalysis& analysis, const RowMatrixf&
                               const Execution& execution) {
   const int32_t n = analysis.metric->vertex_count();
   const auto edges = edges_of(analysis.surface());
-  constexpr int32_t parts = 8;  // fixed sums, added in order: the same bits for any number of threads
+  // A fixed number of partial sums, added in order: the same bits for any number of threads.
+  constexpr int32_t parts = 8;
   RowMatrixf total = RowMatrixf::Zero(n, radii.cols());
   const auto samples = static_cast<int32_t>(analysis.samples.size());
   for (int32_t from = 0; from < samples; from += parts * lanes) {

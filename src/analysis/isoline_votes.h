@@ -7,8 +7,8 @@ namespace focal {
 inline constexpr double isoline_decay = 5;             // Section 5: weight factor
 inline constexpr float isoline_neighbourhood = 0.02f;  // Section 5: radius over which votes are averaged
 
-// Votes of the samples along isolines at radii (samples x columns, shares of a sample's largest distance), averaged over the
-// neighbourhood of each vertex, a share of its own largest distance: vertices x columns.
+// Votes of the samples along isolines at radii (samples x columns, relative to a sample's largest distance),
+// averaged over a neighbourhood of each vertex relative to its own largest distance: vertices x columns.
 RowMatrixf isoline_votes(const SurfaceAnalysis& analysis, const RowMatrixf& radii,
                          const Execution& execution);
 

@@ -9,14 +9,15 @@
 namespace focal {
 namespace {
 
-constexpr double bin_width =
-    0.0125;  // of sqrt(area): under an edge length of meshes of a few thousand vertices
-constexpr double smoothing =
-    0.024;                // standard deviation of the Gaussian, likewise; measured in the reference
+// In sqrt(area): less than an edge length of meshes of a few thousand vertices.
+constexpr double bin_width = 0.0125;
+// Standard deviation of the Gaussian in sqrt(area), as measured in the reference.
+constexpr double smoothing = 0.024;
 constexpr double mu = 5;  // Xia et al. 2016, Section 5
-constexpr int half = 8;   // of the kernel's entries: 4 standard deviations
+constexpr int half = 8;   // half the number of the kernel's entries: 4 standard deviations
 
-// Rows of a table from the rows of a histogram, which begins `half` rows early and ends as many late.
+// Computes rows of a table from rows of a histogram, which starts `half` rows earlier and ends `half` rows
+// later.
 struct Smoothing {
   const float* histogram;
   const float *decay, *kernel;
@@ -27,7 +28,7 @@ FOCAL_INLINE void smooth_body(const Smoothing& s, float* table) {
   typedef float Lane __attribute__((vector_size(32), may_alias, aligned(4)));
   for (int64_t r = 0; r < s.rows; ++r)
     for (int64_t lane = 0; lane < s.stride; lane += 8) {
-      const float* at = s.histogram + (r + half) * s.stride + lane;  // bin r, which begins at row r
+      const float* at = s.histogram + (r + half) * s.stride + lane;  // bin r, whose lower edge is row r
       Lane sum{};
       for (int i = 0; i < half; ++i)
         sum += s.kernel[i] * (*reinterpret_cast<const Lane*>(at - (i + 1) * s.stride) +
@@ -74,7 +75,7 @@ LeafVotes::LeafVotes(const LandmarkModel& model, const Eigen::Ref<const RowMatri
   });
 }
 
-// How often the leaves' samples lie at each distance, all trees weighing the same.
+// Histogram of the distances in the sample's leaves; all trees have the same weight.
 void LeafVotes::add_histogram(int32_t sample, float* histogram) const {
   const auto& trees = model_.forests[0].trees;
   const auto landmarks = static_cast<int32_t>(model_.targets.cols());
@@ -104,7 +105,8 @@ VoteTables LeafVotes::tables(int32_t first, int32_t count, const Execution& exec
       std::fill(histogram.begin(), histogram.end(), 0.0f);
       add_histogram(first + static_cast<int32_t>(s), bins);
       std::fill_n(bins + static_cast<int64_t>(bin_count) * stride_, stride_,
-                  0.0f);  // what is missing has no say
+                  // Missing distances do not vote.
+                  0.0f);
       smooth(how, tables.of(s));
     }
   });

@@ -15,15 +15,15 @@ namespace {
 
 constexpr int lanes = Distance::lanes;
 constexpr int64_t kept_entries = int64_t{1} << 25;     // 64 MB
-constexpr int64_t portion_entries = int64_t{1} << 24;  // of a portion that is computed anew
+constexpr int64_t portion_entries = int64_t{1} << 24;  // per portion that is recomputed
 
 int32_t sample_count(int32_t vertices, const AnalysisParams& params) {
   const auto wanted = static_cast<int32_t>(std::lround(params.sampling_rate * vertices));
-  // On a tiny mesh a tenth of the vertices is too few to vote: at least 100, or all of them.
+  // On a tiny mesh a tenth of the vertices is too few for votes: use at least 100, or all of them.
   return std::min({std::max(wanted, 100), vertices, params.max_samples});
 }
 
-// Blocks [first, first + count) of the samples' distances, for `used` samples.
+// Computes blocks [first, first + count) of the samples' distances, for `used` samples.
 SampleDistances compute_distances(const SurfaceAnalysis& analysis, int32_t first, int32_t used,
                                   const Execution& execution) {
   SampleDistances result;
@@ -47,7 +47,7 @@ EigenParams eigen_params(const AnalysisParams& params) {
   EigenParams eigen;
   eigen.count = params.eigenpair_count;
   eigen.method = EigenMethod::chebyshev;
-  eigen.tolerance = 1e-7;  // 1e-5 serves the signatures; maps magnify what is left of the error
+  eigen.tolerance = 1e-7;  // 1e-5 suffices for the signatures; maps amplify the remaining error
   return eigen;
 }
 
@@ -119,7 +119,7 @@ void keep_distances(SurfaceAnalysis& analysis, const Execution& execution) {
 void for_each_portion(const SurfaceAnalysis& analysis, int32_t count, const Execution& execution,
                       const DistanceSink& sink) {
   if (!analysis.distances.steps.empty()) return sink(0, count, analysis.distances);
-  // Fixed by the mesh alone, so that memory and results do not depend on the threads.
+  // Depends on the mesh alone, so that memory and results do not depend on the number of threads.
   const int64_t blocks = std::max<int64_t>(portion_entries / lanes / analysis.metric->vertex_count(), 4);
   for (int32_t first = 0; first < count; first += static_cast<int32_t>(blocks) * lanes) {
     const int32_t used = std::min(static_cast<int32_t>(blocks) * lanes, count - first);

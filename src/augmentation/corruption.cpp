@@ -13,7 +13,7 @@ namespace focal {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double at_corner = 1 - 1e-9;  // a mark of such a weight is a vertex
+constexpr double at_corner = 1 - 1e-9;  // a landmark with a weight of at least this is at a vertex
 
 struct Neighbours {
   std::vector<int32_t> start, vertex;
@@ -69,7 +69,7 @@ std::vector<Start> starts_of(const TriangleMesh& mesh, const SurfacePoint& from)
   return starts;
 }
 
-// Marks onto the kept triangles; one at a vertex lives on in any triangle of it.
+// Moves landmarks to the kept triangles; one at a vertex survives in any triangle of the vertex.
 void keep_marks(std::vector<std::optional<SurfacePoint>>& marks, const MatrixX3i& triangles,
                 const std::vector<int32_t>& new_triangle) {
   std::map<int32_t, SurfacePoint> corner;
@@ -114,7 +114,7 @@ std::vector<Edge> border_of(const TriangleMesh& mesh) {
   return border;
 }
 
-// The connected groups of edges, in the order of their first ones.
+// The connected groups of edges, ordered by their first edge.
 std::vector<std::vector<Edge>> groups_of(const std::vector<Edge>& edges, int32_t vertex_count) {
   std::vector<int32_t> group(vertex_count);
   std::iota(group.begin(), group.end(), 0);
@@ -133,7 +133,7 @@ std::vector<std::vector<Edge>> groups_of(const std::vector<Edge>& edges, int32_t
   return groups;
 }
 
-// A fan from the middle of each border that the cut has made.
+// Adds a fan from the centroid of each new border.
 void cap(CorruptedMesh& corrupted, std::vector<Edge> old_border) {
   std::vector<Edge> made;
   for (const auto& [a, b] : border_of(corrupted.mesh)) {

@@ -1,15 +1,16 @@
-// Meshes as scanners and artists spoil them, from a seed, with the marks on them carried along: for training on what
-// detection will meet, and for measuring how it copes.
+// Typical defects of scanned and modelled meshes, generated from a seed, with the landmarks transferred: for
+// training on such meshes, and for measuring robustness.
 //
 //   Random random(seed, stream);
 //   CorruptedMesh bad = intact(shape.surface, marks);
 //   bad = with_noise(std::move(bad), 0.2, random);      // any order, any number of corruptions
 //   bad = with_holes(std::move(bad), 20, 1.5, random);
-//   const PreparedMesh mesh = prepare(bad.mesh);        // bad.marks lie on mesh.source: see to_surface
+// const PreparedMesh mesh = prepare(bad.mesh);        // bad.marks are on mesh.source: see to_surface
 //
-// Pure functions of their arguments and the state of `random`: the same seed, the same bits. About 1 ms for 5,000
-// vertices each. Lengths are in the units of the mesh, or in its mean edge lengths where it says so. The meshes need not
-// be closed or manifold. Vertices that no triangle uses any more are dropped, so a mesh without triangles can come out.
+// Pure functions of their arguments and the state of `random`: the same seed gives the same bits. Each takes
+// about 1 ms for 5,000 vertices. Lengths are in the units of the mesh, or in its mean edge lengths where
+// stated. The meshes need not be closed or manifold. Vertices without triangles are dropped, so the result
+// can be a mesh without triangles.
 #pragma once
 #include <optional>
 #include <span>
@@ -23,35 +24,36 @@ namespace focal {
 
 struct CorruptedMesh {
   TriangleMesh mesh;
-  std::vector<std::optional<SurfacePoint>> marks;  // on mesh; empty: went away with its piece of surface
-  std::vector<int32_t> old_vertex;    // per vertex: of the intact mesh, or -1: made by a corruption
-  std::vector<int32_t> old_triangle;  // per triangle: the intact one that it is or lies in, or -1
+  std::vector<std::optional<SurfacePoint>> marks;  // on mesh; empty: its piece of the surface was removed
+  std::vector<int32_t> old_vertex;    // per vertex: number in the intact mesh, or -1: added by a corruption
+  std::vector<int32_t> old_triangle;  // per triangle: the intact one that it is or is part of, or -1
 };
 
-// What every corruption starts from. marks: on mesh; empty ones stay empty.
+// The input of every corruption. marks: on mesh; empty ones stay empty.
 CorruptedMesh intact(TriangleMesh mesh, std::vector<std::optional<SurfacePoint>> marks = {});
 
-// Loses every triangle whose number does not stay (one flag a triangle).
+// Removes every triangle whose flag is not set (one flag per triangle).
 CorruptedMesh keep_triangles(CorruptedMesh corrupted, std::span<const char> stays);
 
-// Every coordinate moves by a normal random number of deviation share * mean edge length.
+// Adds to every coordinate a normal random number of standard deviation share * mean edge length.
 CorruptedMesh with_noise(CorruptedMesh corrupted, double share, Random& random);
 
-// `count` random places lose all vertices within `radius` mean edges along the surface's edges; 0: one vertex each.
+// Removes all vertices within `radius` mean edges along the edges of `count` random vertices; radius 0: only
+// those vertices.
 CorruptedMesh with_holes(CorruptedMesh corrupted, int32_t count, double radius, Random& random);
 
 enum class CutEnd { open, capped };  // capped: a fan over each new border
 
-// Loses every vertex whose flag is set.
+// Removes every vertex whose flag is set.
 CorruptedMesh without_vertices(CorruptedMesh corrupted, const std::vector<char>& lost, CutEnd end,
                                const Execution& execution = {});
-// Loses every vertex nearer than radius to centre along the surface's edges (so up to a tenth less than the geodesic
-// ball): a limb, by a mark at its tip. Crumbs that this leaves, below a hundredth of the triangles, go too.
-// Throws cancelled.
+// Removes every vertex nearer than radius to centre along the edges (up to a tenth less than the geodesic
+// ball): for example a limb, by the landmark at its tip. Also removes fragments of less than a hundredth of
+// the triangles. Throws cancelled.
 CorruptedMesh cut_ball(CorruptedMesh corrupted, const SurfacePoint& centre, double radius, CutEnd end,
                        const Execution& execution = {});
 
-// Length of the shortest way along edges from a point to each vertex, infinity beyond `limit`.
+// Length of the shortest edge path from a point to each vertex, infinity beyond `limit`.
 Vector edge_path_lengths(const TriangleMesh& mesh, const SurfacePoint& from, double limit);
 
 }  // namespace focal

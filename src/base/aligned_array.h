@@ -1,4 +1,4 @@
-// Scratch memory on a cache line's boundary, where the widest vector loads are fastest. Not initialised.
+// Uninitialised scratch memory aligned to a cache line, where the widest vector loads are fastest.
 #pragma once
 #include <cstddef>
 #include <memory>

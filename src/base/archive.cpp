@@ -1,4 +1,4 @@
-// Focal's file container: explicit little-endian bytes out, distrustful checks in.
+// Focal's file container: writes explicit little-endian bytes and checks everything it reads.
 #include "base/archive.h"
 
 #include <algorithm>
@@ -11,15 +11,15 @@
 namespace focal {
 namespace {
 
-constexpr uint32_t endian_mark = 0x01020304;  // lies in the file as 04 03 02 01
+constexpr uint32_t endian_mark = 0x01020304;  // stored in the file as 04 03 02 01
 constexpr size_t header_size = 32, entry_size = 24, name_size = 4;
-constexpr size_t version_end = 16;  // magic, endian mark, major, minor: never moves in any version
-constexpr size_t checksum_at = 28;  // of the header before it and of the table after it
+constexpr size_t version_end = 16;  // magic, endian mark, major, minor: at the same offset in all versions
+constexpr size_t checksum_at = 28;  // of the header before it and the table after it
 constexpr uint32_t section_limit = 1024;
 
 [[noreturn]] void refuse(const std::string& message) {
   throw Error(Status::invalid_file, message,
-              "The file is damaged or was not written by focal: save it again.");
+              "The file is corrupt or was not written by focal: save it again.");
 }
 
 uint32_t header_checksum(std::span<const std::byte> header_and_table) {
@@ -196,7 +196,7 @@ void Archive::read_table(std::span<const std::byte> file, uint32_t section_count
   ByteReader checksum(header_and_table.subspan(checksum_at), header_name);
   if (checksum.u32("checksum") != header_checksum(header_and_table)) refuse(header_name + ": wrong checksum");
   ByteReader table(header_and_table.subspan(header_size), header_name);
-  uint64_t end = table_end;  // sections lie one after the other: no gap that no checksum covers
+  uint64_t end = table_end;  // sections are contiguous: no bytes without a checksum
   for (uint32_t i = 0; i < section_count; ++i) {
     const std::string name = text_of(table.raw("section name", name_size));
     const std::string where = kind_name_ + " section " + name;

@@ -1,5 +1,5 @@
-// Focal's file container: a header, a table of sections with a checksum each, the sections. All numbers are
-// little-endian on every machine. docs/model-format.md describes the bytes.
+// Focal's file container: a header, a table of sections with a checksum each, then the sections. All numbers
+// are little-endian on every machine. docs/model-format.md describes the bytes.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -11,8 +11,8 @@
 
 namespace focal {
 
-// What a file is. A reader takes files of its own major version and of older minor and newer minor ones:
-// a minor step only adds sections, which older readers skip.
+// A file type. A reader accepts files of its own major version and any minor version: a new minor version
+// only adds sections, which older readers skip.
 struct ArchiveKind {
   std::string_view magic;  // 8 characters
   std::string_view name;   // for messages: "model"
@@ -31,9 +31,9 @@ class ByteWriter {
   void f32(float value);
   void f64(double value);
   void f32s(std::span<const float> values);
-  void text(std::string_view value);  // u32 length, then UTF-8
+  void text(std::string_view value);  // u32 length, then UTF-8 bytes
   void raw(std::span<const std::byte> bytes) { bytes_.insert(bytes_.end(), bytes.begin(), bytes.end()); }
-  // Each value in `bits` bits (1..32), lowest first, the whole padded with zeros to a full byte.
+  // Packs each value into `bits` bits (1..32), lowest bit first, and pads with zeros to a full byte.
   void packed(std::span<const uint32_t> values, int bits);
   std::vector<std::byte> take() { return std::move(bytes_); }
 
@@ -42,8 +42,8 @@ class ByteWriter {
   std::vector<std::byte> bytes_;
 };
 
-// Reads what ByteWriter wrote and trusts none of it: whatever is out of its range, not finite or beyond the
-// end throws Error{invalid_file} that names the section and what was being read.
+// Reads what ByteWriter wrote and validates every value: one that is out of range, not finite or beyond the
+// end throws Error{invalid_file} with the names of the section and of the value.
 class ByteReader {
  public:
   ByteReader(std::span<const std::byte> bytes, std::string where) : rest_(bytes), where_(std::move(where)) {}
@@ -58,8 +58,8 @@ class ByteReader {
   double f64(const char* what, double least = std::numeric_limits<double>::lowest(),
              double most = std::numeric_limits<double>::max());
   std::vector<float> f32s(const char* what, size_t count, float least, float most);
-  // A u32 number of items that take at least `item_bits` each: for those whose memory is taken before they are read, so that no
-  // allocation outgrows the file.
+  // Reads a u32 number of items that take at least `item_bits` each. Use it where memory is allocated before
+  // the items are read: the allocation cannot exceed the file's size.
   int32_t count(const char* what, uint64_t item_bits, int32_t least = 0,
                 int32_t most = std::numeric_limits<int32_t>::max());
   std::string text(const char* what);
@@ -75,10 +75,10 @@ class ByteReader {
   std::string where_;
 };
 
-// Number of bits that hold every value of 0..largest, at least 1.
+// Number of bits that can hold every value of 0..largest, at least 1.
 int bits_for(uint32_t largest);
 
-// A section's name is four characters, unique in its file.
+// A section's name is four characters and unique in its file.
 struct ArchiveSection {
   std::string name;
   std::vector<std::byte> bytes;
@@ -86,10 +86,10 @@ struct ArchiveSection {
 
 std::vector<std::byte> write_archive(const ArchiveKind& kind, std::span<const ArchiveSection> sections);
 
-// Views into a file's bytes; checks the header, the table and every section's checksum when made.
+// Views into a file's bytes; the constructor checks the header, the table and every section's checksum.
 class Archive {
  public:
-  // Throws invalid_file (not of this kind, truncated, damaged) and unsupported_version.
+  // Throws invalid_file (not of this kind, truncated, corrupt) and unsupported_version.
   Archive(const ArchiveKind& kind, std::span<const std::byte> file);
   bool has(std::string_view name) const;
   ByteReader section(std::string_view name) const;  // throws invalid_file when it is missing

@@ -1,5 +1,5 @@
-// Reading and writing whole files. The write is the usual safe sequence: temporary file in the same folder,
-// write, fsync, rename, fsync of the folder.
+// Reads and writes whole files. Writing is the usual safe sequence: temporary file in the same folder, write,
+// fsync, rename, fsync of the folder.
 #include "base/atomic_file.h"
 
 #include <fcntl.h>
@@ -40,7 +40,7 @@ class FileDescriptor {
   int fd_;
 };
 
-// Once more when a signal came between.
+// Repeats a system call that a signal interrupted.
 template <class Call>
 auto uninterrupted(Call&& call) {
   for (;;)
@@ -57,7 +57,7 @@ std::string quoted(const fs::path& path) { return "'" + path.string() + "'"; }
   throw Error(Status::io, message, "check permissions and free space");
 }
 
-// A C string ends at the first NUL: a name holding one would open another file than the one it shows.
+// A C string ends at the first NUL, so a name with a NUL would open another file than the one it shows.
 void require_plain_name(const fs::path& path) {
   if (path.empty() || path.native().find('\0') != std::string::npos)
     throw Error(Status::invalid_argument, "the file name is empty or holds a NUL byte", "pass a file name");
@@ -75,8 +75,8 @@ std::vector<std::byte> read_all(const FileDescriptor& file, const fs::path& path
                  "reduce the file or raise the size limit");
   };
   if (info.st_size > size_limit) throw too_large();
-  // One byte more than announced, so that the end of file is seen without growing; the size may also lie
-  // (/proc).
+  // One byte more than the reported size, so that the end of file is detected without growing; the size may
+  // also be wrong (/proc).
   std::vector<std::byte> bytes(static_cast<size_t>(info.st_size) + 1);
   size_t filled = 0;
   for (;;) {
@@ -92,7 +92,7 @@ std::vector<std::byte> read_all(const FileDescriptor& file, const fs::path& path
   return bytes;
 }
 
-// The temporary file: unlinked again unless it was renamed into place.
+// A temporary file that is deleted unless it was renamed to its final name.
 class TemporaryFile {
  public:
   TemporaryFile(const fs::path& folder, mode_t mode) : file_(-1) {
@@ -116,14 +116,14 @@ class TemporaryFile {
 
   void write_and_sync(std::span<const std::byte> bytes) {
     while (!bytes.empty()) {
-      constexpr size_t chunk = size_t{1} << 30;  // Linux writes at most 2 GiB a call
+      constexpr size_t chunk = size_t{1} << 30;  // Linux writes at most 2 GiB per call
       const ssize_t written =
           uninterrupted([&] { return ::write(file_.get(), bytes.data(), std::min(bytes.size(), chunk)); });
       if (written <= 0) fail("cannot write", path_, written < 0 ? errno : ENOSPC);
       bytes = bytes.subspan(static_cast<size_t>(written));
     }
     if (uninterrupted([&] { return ::fsync(file_.get()); }) != 0) fail("cannot flush", path_, errno);
-    // Closed all the same when that is interrupted, and what it holds is on the disk already.
+    // After EINTR the descriptor is closed all the same, and the data is already on disk.
     if (file_.close() != 0 && errno != EINTR) fail("cannot close", path_, errno);
   }
 
@@ -139,11 +139,11 @@ class TemporaryFile {
   bool renamed_ = false;
 };
 
-// Makes the rename itself durable. Some file systems do not know fsync on folders; that is no failure.
+// Makes the rename itself durable. A file system without fsync on folders is not an error.
 void sync_folder(const fs::path& folder) {
   const FileDescriptor handle(
       uninterrupted([&] { return ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); }));
-  if (!handle.valid()) return;  // a folder may be writable and not readable
+  if (!handle.valid()) return;  // a folder may be writable but not readable
   if (uninterrupted([&] { return ::fsync(handle.get()); }) != 0 && errno != EINVAL && errno != ENOTSUP)
     fail("cannot flush", folder, errno);
 }
@@ -152,7 +152,7 @@ void sync_folder(const fs::path& folder) {
 
 std::vector<std::byte> read_file(const fs::path& path, int64_t size_limit) {
   require_plain_name(path);
-  // O_NONBLOCK: opening a pipe without a writer returns at once, to be refused by read_all.
+  // O_NONBLOCK: opening a pipe without a writer returns at once, and read_all then refuses it.
   const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY));
   if (!file.valid()) fail("cannot open", path, errno);
   return read_all(file, path, size_limit);
@@ -185,7 +185,7 @@ std::vector<std::byte> read_file_inside(const fs::path& folder, const fs::path& 
 void write_file_atomically(const fs::path& path, std::span<const std::byte> bytes) {
   require_plain_name(path);
   std::error_code error;
-  // Through a link the file it names is replaced, and the link stays.
+  // Replaces the target of a link and keeps the link.
   const bool is_link = fs::is_symlink(path, error);
   error.clear();
   const fs::path target = is_link ? fs::weakly_canonical(path, error) : path;
@@ -198,7 +198,7 @@ void write_file_atomically(const fs::path& path, std::span<const std::byte> byte
   const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
   TemporaryFile temporary(folder, 0666);
   if (replaces)
-    (void)::fchmod(temporary.descriptor(), old.st_mode & 0777);  // keeps the file as open as it was
+    (void)::fchmod(temporary.descriptor(), old.st_mode & 0777);  // keeps the permissions of the old file
   temporary.write_and_sync(bytes);
   temporary.rename_to(target);
   sync_folder(folder);

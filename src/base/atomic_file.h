@@ -1,4 +1,4 @@
-// Whole files in and out: a read that cannot block or run away, a write that is all or nothing.
+// Reads and writes whole files: a read never blocks and has a size limit, a write is atomic.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -10,19 +10,20 @@ namespace focal {
 
 inline constexpr int64_t default_file_limit = int64_t{4} << 30;  // bytes
 
-// The bytes of a regular file (links are followed). A pipe, device or folder is refused without blocking.
-// Throws file_not_found, invalid_file (not a regular file), unsupported (more than size_limit bytes), io.
+// Reads the bytes of a regular file (links are followed). A pipe, device or folder is refused without
+// blocking. Throws file_not_found, invalid_file (not a regular file), unsupported (more than size_limit
+// bytes), io.
 std::vector<std::byte> read_file(const std::filesystem::path& path, int64_t size_limit = default_file_limit);
 
-// The same for a file named by an untrusted document: `relative` must stay inside `folder`, and no part of it
-// may be a link. Also throws invalid_file for an absolute path or one with "..".
+// The same for a file named by an untrusted document: `relative` must stay inside `folder`, and no component
+// of it may be a link. Also throws invalid_file for an absolute path or one with "..".
 std::vector<std::byte> read_file_inside(const std::filesystem::path& folder,
                                         const std::filesystem::path& relative,
                                         int64_t size_limit = default_file_limit);
 
-// After a normal return the file holds exactly `bytes`, on disk; after an exception or a crash it is the old file,
-// if any, or (when only the folder could not be flushed) the new one, whole. Throws io, invalid_argument (the path is a folder, device or pipe), file_not_found (no
-// such folder).
+// After a normal return the file on disk contains exactly `bytes`. After an exception or a crash it is the
+// complete old file, if any, or (when only the flush of the folder failed) the complete new one. Throws io,
+// invalid_argument (the path is a folder, device or pipe), file_not_found (no such folder).
 void write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
 
 }  // namespace focal

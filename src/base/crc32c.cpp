@@ -1,4 +1,4 @@
-// CRC-32C in software, eight bytes a step.
+// CRC-32C in software, eight bytes per step.
 // M. E. Kounavis, F. L. Berry, "A Systematic Approach to Building High Performance Software-Based CRC
 // Generators", 2005 (slicing by 8).
 #include "base/crc32c.h"

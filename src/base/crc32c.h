@@ -6,7 +6,8 @@
 
 namespace focal {
 
-// Finds every error burst of at most 32 bits, so every flipped byte. Chain blocks by passing the last result.
+// Detects every error burst of at most 32 bits, so every single corrupt byte. To continue over several
+// blocks, pass the previous result.
 uint32_t crc32c(std::span<const std::byte> bytes, uint32_t previous = 0);
 
 }  // namespace focal

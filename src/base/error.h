@@ -1,4 +1,4 @@
-// The one exception type of focal. Only capi/ catches it and turns it into a focal_status.
+// The only exception type of focal. Only capi/ catches it and converts it to a focal_status.
 #pragma once
 #include <cstdint>
 #include <stdexcept>
@@ -26,7 +26,7 @@ enum class Status : int32_t {
   too_few_shapes = 15,
 };
 
-// message says what is wrong and names the object; hint says what to do about it.
+// message describes the error and names the object; hint says how to fix it.
 class Error : public std::runtime_error {
  public:
   Error(Status status, const std::string& message, std::string hint)

@@ -1,13 +1,13 @@
-// A value made when first asked for.
+// A value that is created on first use.
 #pragma once
 #include <mutex>
 #include <optional>
 
 namespace focal {
 
-// Any thread may ask. A make() that throws leaves the value unmade, for the next call to try again: std::call_once
-// would send the exception through pthread_once of the C library, which ends the process where the C++ runtime is
-// linked statically.
+// Thread-safe. If make() throws, the value stays empty and the next call tries again. std::call_once would
+// send the exception through pthread_once of the C library, which terminates the process where the C++
+// runtime is linked statically.
 template <class T>
 class Lazy {
  public:

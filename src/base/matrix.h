@@ -1,4 +1,4 @@
-// The linear-algebra names used in focal's headers; Eigen is named nowhere else in a header.
+// The linear-algebra types of focal's headers; no other header names Eigen.
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -18,8 +18,8 @@ using MatrixX3i = Eigen::Matrix<int32_t, Eigen::Dynamic, 3, Eigen::RowMajor>;  /
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using RowMatrixf = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-// Eigen's constructors lose their first array when there is no memory for the second. Here the matrix exists before it is
-// filled, so its destructor frees what there is.
+// Eigen's constructors leak their first array when the allocation of the second fails. Here the matrix exists
+// before it is filled, so its destructor frees whatever was allocated.
 class SparseMatrix : public Eigen::SparseMatrix<double, Eigen::ColMajor, int32_t> {
  public:
   using Base = Eigen::SparseMatrix<double, Eigen::ColMajor, int32_t>;

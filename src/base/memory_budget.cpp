@@ -11,11 +11,12 @@ namespace {
 
 constinit std::atomic<int64_t> held{0};
 
-// Each thread's innermost ScopedMemoryBudget. Not thread_local: the C library ends the process when it cannot allocate a library's
-// variables of a thread, at any first use of one, while a key asks for nothing or says so. Made with the first budget.
+// Each thread's innermost ScopedMemoryBudget. Not thread_local: the C library terminates the process when it
+// cannot allocate a library's thread-local variables, at any first use of one; a pthread key allocates
+// nothing or reports the failure. Created with the first budget.
 class Innermost {
  public:
-  ~Innermost() {  // when the library is unloaded
+  ~Innermost() {  // runs when the library is unloaded
     if (made_.exchange(false)) pthread_key_delete(key_);
   }
   void make() {
@@ -28,7 +29,7 @@ class Innermost {
     return made_.load(std::memory_order_acquire) ? static_cast<ScopedMemoryBudget*>(pthread_getspecific(key_))
                                                  : nullptr;
   }
-  // Needs memory only for the first one of a thread that is not null. Without memory nothing changes.
+  // Allocates only for a thread's first value that is not null. If that fails, nothing changes.
   void set(ScopedMemoryBudget* scope) {
     if (made_.load(std::memory_order_acquire)) pthread_setspecific(key_, scope);
   }
@@ -63,7 +64,7 @@ ScopedMemoryBudget::~ScopedMemoryBudget() {
 void ScopedMemoryBudget::adopt(std::shared_ptr<const MemoryBudget> budget) {
   if (!budget) return;
   ScopedMemoryBudget* const scope = innermost.get();
-  if (!scope) throw std::bad_alloc();  // its constructor had no memory
+  if (!scope) throw std::bad_alloc();  // the constructor could not allocate
   if (scope->budget_) return;
   scope->owner_ = std::move(budget);
   scope->budget_ = scope->owner_.get();

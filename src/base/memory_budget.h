@@ -1,4 +1,4 @@
-// What the library holds of the process's memory, and what a call may make of it.
+// The memory that the library holds in the process, and the limit for a call.
 #pragma once
 #include <atomic>
 #include <cstdint>
@@ -6,22 +6,23 @@
 
 namespace focal {
 
-// Of one context. Calls that would take the library beyond it are refused memory, as if there were no more.
+// The budget of one context. An allocation that would exceed it fails as if no memory were left.
 struct MemoryBudget {
-  explicit MemoryBudget(int64_t limit);  // bytes, of all that the library holds
+  explicit MemoryBudget(int64_t limit);  // bytes, for everything that the library holds
 
   const int64_t limit;
-  // What was asked for when it was last refused, and what was held then; 0 when it never was. Any thread.
+  // Bytes requested and bytes held at the last refused allocation; 0 before the first. Any thread.
   mutable std::atomic<int64_t> asked{0}, held{0};
 };
 
-// Bytes that the library holds now, whatever for. 0 in programs that do not allocate through capi/allocator.cpp.
+// Bytes that the library holds now, for all purposes. 0 in programs that do not allocate through
+// capi/allocator.cpp.
 int64_t memory_held();
 
-// The budget that this thread's allocations keep to; null: none.
+// The budget of this thread's allocations; null: none.
 const MemoryBudget* memory_budget();
 
-// Allocations of this thread keep to the budget, null: to none, until the end of the scope.
+// Sets the budget of this thread's allocations until the end of the scope; null: no budget.
 class ScopedMemoryBudget {
  public:
   explicit ScopedMemoryBudget(const MemoryBudget* budget) noexcept;
@@ -29,8 +30,8 @@ class ScopedMemoryBudget {
   ScopedMemoryBudget(const ScopedMemoryBudget&) = delete;
   ScopedMemoryBudget& operator=(const ScopedMemoryBudget&) = delete;
 
-  // To this one instead, to the end of this thread's innermost scope, unless that has one. null is fine. Throws
-  // std::bad_alloc.
+  // Switches to another budget until the end of this thread's innermost scope, unless that scope has one
+  // already. null is allowed. Throws std::bad_alloc.
   static void adopt(std::shared_ptr<const MemoryBudget> budget);
 
  private:
@@ -40,11 +41,13 @@ class ScopedMemoryBudget {
   std::shared_ptr<const MemoryBudget> owner_;
 };
 
-// For allocators: `bytes` more are held; false, and nothing has changed, when the budget does not allow them.
+// For allocators: counts `bytes` more as held. Returns false and changes nothing when the budget does not
+// allow it.
 bool take_memory(int64_t bytes);
 void give_memory(int64_t bytes);
 
-// What another library allocates for us. Throws std::bad_alloc when the budget does not allow it.
+// Counts memory that another library allocates for us. Throws std::bad_alloc when the budget does not allow
+// it.
 class ExternalAllocation {
  public:
   explicit ExternalAllocation(int64_t bytes);

@@ -13,7 +13,7 @@
 namespace focal {
 namespace {
 
-// Joins on every way out, also when starting a later thread failed.
+// Joins the threads on every exit path, also when starting a later thread failed.
 struct JoiningThreads {
   std::vector<std::thread> threads;
   ~JoiningThreads() {
@@ -51,7 +51,7 @@ void parallel_for(const Execution& execution, int64_t count, const std::function
     }
   };
   if (execution.host_parallel_for && count > 1) {
-    execution.host_parallel_for(count, [&](int64_t i) {  // on threads that know nothing of the budget
+    execution.host_parallel_for(count, [&](int64_t i) {  // host threads have no budget set
       const ScopedMemoryBudget kept(budget);
       guarded(i);
     });
@@ -65,7 +65,7 @@ void parallel_for(const Execution& execution, int64_t count, const std::function
     try {
       for (int64_t t = 0; t < extra; ++t) helpers.threads.emplace_back(work);
     } catch (const std::exception&) {
-      // Too few threads or memory to start more: the ones that run do all the work.
+      // Too few threads or too little memory to start more: the running ones do all the work.
     }
     work();
   }

@@ -1,4 +1,5 @@
-// How a stage is run: threads, and the task that may cancel it. Passed by const reference through every stage.
+// How a stage runs: its threads, and the task that can cancel it. Passed by const reference through every
+// stage.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -10,16 +11,17 @@ namespace focal {
 class Backend;
 
 struct Execution {
-  int thread_count = 0;  // 0: one a core
+  int thread_count = 0;  // 0: one per core
   Task* task = nullptr;  // may be null
-  bool reports =
-      true;  // false inside a body of parallel_for: cancellable, but the outer loop tells the progress
-  // The host's own parallel-for, or empty: run body(i) for i in [0, count) in any order, return when all are done.
+  // False inside a body of parallel_for: cancellable, but the outer loop reports the progress.
+  bool reports = true;
+  // The host's own parallel loop, or empty: runs body(i) for i in [0, count) in any order and returns when
+  // all are done.
   std::function<void(int64_t count, const std::function<void(int64_t)>& body)> host_parallel_for;
   const Backend* backend = nullptr;  // see compute/module_loader.h; null: the CPU
 
   int threads() const;
-  // For the stages inside a body of parallel_for: one thread, no progress of their own.
+  // For stages inside a body of parallel_for: one thread, no progress of their own.
   Execution inner() const {
     return {.thread_count = 1, .task = task, .reports = false, .host_parallel_for = {}, .backend = nullptr};
   }
@@ -34,11 +36,11 @@ struct Execution {
 };
 
 // Runs body(i) for every i in [0, count) on execution.threads() threads, started and joined inside the call.
-// The order is free, so a body must write only what belongs to i: results are then the same bits for any thread count.
-// Checks for cancellation before each i; the first exception of a body is rethrown here.
+// The order is not defined, so a body must write only data that belongs to i; results are then the same bits
+// for any number of threads. Checks for cancellation before each i; rethrows the first exception of a body.
 void parallel_for(const Execution& execution, int64_t count, const std::function<void(int64_t)>& body);
 
-// The same over [0, count) cut in ranges of at most `grain`.
+// The same over [0, count) split into ranges of at most `grain`.
 void parallel_for_ranges(const Execution& execution, int64_t count, int64_t grain,
                          const std::function<void(int64_t begin, int64_t end)>& body);
 

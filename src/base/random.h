@@ -1,4 +1,5 @@
-// A small counter-free random generator (PCG32, O'Neill 2014): the same stream on every platform and library.
+// A small random number generator (PCG32, O'Neill 2014): the same stream on every platform and standard
+// library.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -7,7 +8,7 @@ namespace focal {
 
 class Random {
  public:
-  // Streams of one seed are independent: use one a tree, one a shape.
+  // Streams of one seed are independent: use one per tree or per shape.
   explicit Random(uint64_t seed, uint64_t stream = 0);
   uint32_t next();                 // uniform over all 32-bit values
   uint32_t below(uint32_t bound);  // uniform in [0, bound), bound > 0
@@ -18,7 +19,7 @@ class Random {
   uint64_t state_, increment_;
 };
 
-// `count` different numbers of [0, n), in random order; all of them when count >= n.
+// Draws `count` different numbers from [0, n), in random order; all of them when count >= n.
 std::vector<int32_t> sample_without_replacement(Random& random, int32_t n, int32_t count);
 
 }  // namespace focal

@@ -1,4 +1,4 @@
-// Wall time of the stages that a detection reports.
+// Wall time of the stages of a detection.
 #pragma once
 #include <chrono>
 

@@ -32,8 +32,8 @@ FOCAL_MULTIVERSION(float chirality_cost(float x, float y, const float* xs, const
                                         const float* inverse, const float* here, int32_t count),
                    return chirality_body(x, y, xs, ys, mean, inverse, here, count);)
 
-// Statistics laid out for the inner loop: rows padded to a multiple of 16, inverse deviations, zero where two of the
-// three landmarks are the same.
+// Statistics in the layout of the inner loop: rows padded to a multiple of 16, inverse deviations, zero where
+// two of the three landmarks are the same.
 struct Tables {
   int32_t L, padded;
   std::vector<float> mean, inverse;  // [c][a][padded b]
@@ -56,10 +56,11 @@ struct Tables {
   size_t row(int32_t c, int32_t a) const { return (static_cast<size_t>(c) * L + a) * padded; }
 };
 
-// One descent: the chosen candidate of every landmark, and the ways from each chosen one to all chosen ones.
+// One descent: the chosen candidate of every landmark, and the tangent directions from each chosen one to all
+// others.
 class Descent {
  public:
-  // start: one candidate a landmark, or -1.
+  // start: one candidate per landmark, or -1.
   Descent(const Tables& tables, const ConstellationCandidates& candidates, const ConstellationParams& params,
           const std::vector<int32_t>& start)
       : t_(tables),
@@ -89,7 +90,7 @@ class Descent {
     }
   }
 
-  // Everything of the energy that depends on where landmark l lies.
+  // The terms of the energy that depend on the position of landmark l.
   float cost(int32_t l, int32_t candidate) {
     float pairs = 0, triples = 0;
     for (int32_t o = 0; o < t_.L; ++o) row_x_[o] = row_y_[o] = 0;
@@ -100,7 +101,7 @@ class Descent {
     }
     for (int32_t o = 0; o < t_.L; ++o) {
       if (o == l || chosen_[o] < 0) continue;
-      // At l, from o round to every b (each pair counted twice: halved); at o, from l round to every b.
+      // At l, from o to every b (each pair is counted twice: halved); at o, from l to every b.
       const size_t at_l = t_.row(l, o), at_o = t_.row(o, l);
       triples += 0.5f * chirality_cost(row_x_[o], row_y_[o], row_x_.data(), row_y_.data(), &t_.mean[at_l],
                                        &t_.inverse[at_l], here_.data(), t_.padded);
@@ -164,7 +165,7 @@ class Descent {
     int32_t candidate = -1;
     float cost = std::numeric_limits<float>::infinity();
   };
-  // The candidate that fits the others best, also of a landmark that is left out.
+  // The candidate that fits the others best, also for a landmark that is left out.
   Option best_option(int32_t l) {
     Option best;
     if (chosen_[l] >= 0) best = {chosen_[l], cost(l, chosen_[l]) - min_gain};
@@ -200,10 +201,10 @@ class Descent {
   std::vector<float> row_x_, row_y_, here_;
 };
 
-// Whether three quarters of the landmarks lie at about the same place.
+// Whether three quarters of the landmarks have about the same position.
 bool is_like(const ConstellationChoice& a, const ConstellationChoice& b,
              const ConstellationCandidates& candidates) {
-  constexpr float elsewhere = 0.1f;  // of sqrt(area)
+  constexpr float elsewhere = 0.1f;  // in sqrt(area)
   size_t differing = 0;
   for (size_t l = 0; l < a.candidate.size(); ++l)
     differing += a.candidate[l] >= 0 && candidates.distance(a.candidate[l], b.candidate[l]) > elsewhere;
@@ -230,13 +231,13 @@ std::vector<ConstellationChoice> choose_constellations(const ConstellationStatis
     descent.run(random);
     minima[r] = descent.chosen();
   });
-  std::sort(minima.begin(), minima.end());  // many restarts end in the same
+  std::sort(minima.begin(), minima.end());  // many restarts end in the same minimum
   minima.erase(std::unique(minima.begin(), minima.end()), minima.end());
   std::vector<ConstellationChoice> results(minima.size());
   parallel_for(execution, static_cast<int64_t>(minima.size()), [&](int64_t m) {
     Random random(params.seed, 4000 + m);
     Descent descent(tables, candidates, params, minima[m]);
-    descent.allow_absence(params.absent_cost);  // only now: at first everything is out of place
+    descent.allow_absence(params.absent_cost);  // only now: at the start all positions are wrong
     descent.run(random);
     results[m] = descent.result();
   });
@@ -254,13 +255,15 @@ std::vector<ConstellationChoice> choose_constellations(const ConstellationStatis
 }
 
 ConstellationStatistics learn_constellation(std::span<const ConstellationSample> samples, int32_t landmarks) {
-  // What few shapes cannot show: a new body is larger or smaller than those seen. The share of a distance was chosen by
-  // cross-validation on training splits (teddy 2.96 -> 2.71 edges, faust5k 1.25 -> 1.24).
+  // Corrects for the variation that few shapes cannot show: a new body can be larger or smaller than all of
+  // them. The share of a distance was chosen by cross-validation on training splits (teddy 2.96 -> 2.71
+  // edges, faust5k 1.25 -> 1.24).
   constexpr float distance_floor = 0.02f, distance_share = 0.08f, chirality_floor = 0.15f;
   ConstellationStatistics result;
   result.landmarks = landmarks;
   result.distance_mean = RowMatrixf::Zero(landmarks, landmarks);
-  result.distance_sd = RowMatrixf::Constant(landmarks, landmarks, 1e3f);  // never seen together: says nothing
+  // Never present together: no information.
+  result.distance_sd = RowMatrixf::Constant(landmarks, landmarks, 1e3f);
   const size_t triples = static_cast<size_t>(landmarks) * landmarks * landmarks;
   result.chirality_mean.assign(triples, 0);
   result.chirality_sd.assign(triples, 1e3f);

@@ -27,7 +27,7 @@ Face face_of(const TriangleMesh& mesh, int32_t t, const MatrixX3& normals) {
   return face;
 }
 
-// Triangles wholly within the radius, or those round the point itself where the mesh is too coarse for that.
+// Triangles entirely within the radius, or those around the point where the mesh is too coarse for that.
 std::vector<int32_t> disc_round(const TriangleMesh& mesh, const SurfacePoint& point, const float* field,
                                 double radius) {
   std::vector<int32_t> disc, ring;
@@ -62,7 +62,7 @@ TangentDirections tangent_directions(const TriangleMesh& mesh, std::span<const S
       normal += faces.back().area * normals.row(t).transpose();
       area += faces.back().area;
     }
-    if (!(area > 0) || normal.isZero(0)) return;  // sheets back to back face nowhere
+    if (!(area > 0) || normal.isZero(0)) return;  // opposite sheets have no normal
     normal.normalize();
     const Vector3 e1 = normal.unitOrthogonal(), e2 = normal.cross(e1);
     for (int32_t a = 0; a < count; ++a) {

@@ -12,13 +12,14 @@
 namespace focal {
 namespace {
 
-// Chosen on faust5k's meshes beside its test split; mean errors there, x 100 / sqrt(area), say what each does.
-constexpr double near_landmarks =
-    0.3;  // of sqrt(area): falloff of the landmarks' say in the first map; plain distances 2.40
-constexpr int32_t spread_vertices = 1200;  // stand for all until the last round; all of them: no better
+// Chosen on faust5k's meshes outside its test split; the comments give the mean errors there, x 100 /
+// sqrt(area), of alternatives.
+// In sqrt(area): falloff of the landmarks' influence in the first map; plain distances: 2.40.
+constexpr double near_landmarks = 0.3;
+constexpr int32_t spread_vertices = 1200;  // represent all until the last round; using all is no better
 constexpr MapParams rounds_of_map{.first = 20, .last = 128, .step = 8};
-constexpr int smoothing_rounds = 2;       // none: 2.6
-constexpr double smoothing_radius = 0.1;  // of sqrt(area); 0.06 and 0.15 a little worse
+constexpr int smoothing_rounds = 2;       // without: 2.6
+constexpr double smoothing_radius = 0.1;  // in sqrt(area); 0.06 and 0.15 are slightly worse
 
 void check(const Detection& from, const Detection& to) {
   if (from.model != to.model)
@@ -29,17 +30,17 @@ void check(const Detection& from, const Detection& to) {
                 "detect with a model of preset default");
 }
 
-// The landmarks that were found on both.
+// The landmarks found on both meshes.
 std::vector<int32_t> shared_landmarks(const Detection& from, const Detection& to) {
   std::vector<int32_t> shared = placed_landmarks(from);
   std::erase_if(shared, [&](int32_t l) { return to.places[l].triangle < 0; });
   if (shared.size() < 3)
     throw Error(Status::invalid_argument, "fewer than three landmarks were found on both meshes",
-                "are both of the category that the model was learned on?");
+                "check that both belong to the category that the model was trained on");
   return shared;
 }
 
-// vertices x landmarks (padded to a multiple of 4): how near each landmark is.
+// vertices x landmarks (padded to a multiple of 4): proximity of each landmark.
 RowMatrixf nearness(const Detection& detection, const std::vector<int32_t>& landmarks,
                     const Execution& execution) {
   const RowMatrixf distances =
@@ -61,7 +62,7 @@ FunctionalMap map_between(const Detection& from, const Detection& to, const Exec
       std::move(first), rounds_of_map, execution);
 }
 
-// Of every vertex of `a` the point of `b` that is nearest in the embedding.
+// For every vertex of `a` the nearest point of `b` in the embedding.
 std::vector<SurfacePoint> nearest_images(const SurfaceAnalysis& a, const SurfaceAnalysis& b,
                                          const FunctionalMap& map, const Execution& execution) {
   const RowMatrixf here = b.eigenfunctions.leftCols(map.C.cols()) * map.C.transpose();
@@ -76,7 +77,8 @@ std::vector<SurfacePoint> nearest_images(const SurfaceAnalysis& a, const Surface
   return images;
 }
 
-// Neighbours go to neighbours: each vertex to where the similarity that suits the images round it takes it.
+// Smooths the map: moves the image of each vertex to where the best similarity transform of the images around
+// it maps it.
 void smooth(const SurfaceAnalysis& a, const SurfaceAnalysis& b, std::vector<SurfacePoint>& images,
             const Execution& execution) {
   const auto n = static_cast<int64_t>(images.size());
@@ -94,7 +96,7 @@ void smooth(const SurfaceAnalysis& a, const SurfaceAnalysis& b, std::vector<Surf
       there.row(i) = positions.row(ball[i]), here.row(i) = place.row(ball[i]);
       const double near = (there.row(i) - positions.row(v)).squaredNorm() / std::pow(smoothing_radius, 2);
       const double apart =
-          (here.row(i) - place.row(v)).norm() / (2 * smoothing_radius);  // on another limb: no say
+          (here.row(i) - place.row(v)).norm() / (2 * smoothing_radius);  // on another limb: no weight
       weight[i] = a.operators.mass[ball[i]] * (1 - near) / (1 + std::pow(apart, 4));
     }
     Vector3 to = place.row(v);
@@ -104,7 +106,8 @@ void smooth(const SurfaceAnalysis& a, const SurfaceAnalysis& b, std::vector<Surf
   images = closest_points(b.surface(), queries, 2 * b.operators.mean_edge, execution);
 }
 
-// From the vertices of the analysed surface to those of the full one: between the images of the corners.
+// Extends the map from the vertices of the analysed surface to those of the full one: between the images of
+// the corners.
 std::vector<SurfacePoint> at_full_vertices(const SurfaceAnalysis& a, const SurfaceAnalysis& b,
                                            const std::vector<SurfacePoint>& images,
                                            const Execution& execution) {

@@ -1,5 +1,5 @@
-// A point of one detected mesh for every point of another, from a functional map that starts at the landmarks of both: left and
-// right, front and back are settled by then.
+// Maps every point of one detected mesh to a point of another, by a functional map that starts at the
+// landmarks of both; these resolve left and right, front and back.
 #pragma once
 #include <vector>
 
@@ -8,16 +8,18 @@
 namespace focal {
 
 struct DenseMap {
-  std::vector<SurfacePoint>
-      point;  // per vertex of from.mesh->source, on to.mesh->source; triangle -1: none uses the vertex
-  float residual = 0;  // of the functional map: small where the shapes are alike
+  // Per vertex of from.mesh->source, on to.mesh->source; triangle -1: no triangle uses the vertex.
+  std::vector<SurfacePoint> point;
+  float residual = 0;  // of the functional map: small where the shapes are similar
 };
 
-// Both by one model. Throws invalid_argument when they are not, when a detection keeps no analysis (preset paper's do not suit
-// either), or when fewer than three landmarks were found on both. About 0.2 s at any size.
+// Both detections must be by one model. Throws invalid_argument when they are not, when a detection keeps no
+// analysis (nor with preset paper), or when fewer than three landmarks were found on both. About 0.2 s at any
+// size.
 DenseMap dense_map(const Detection& from, const Detection& to, const Execution& execution);
 
-// Values at the vertices of to.mesh->source (a row each), carried to those of from.mesh->source; 0 where no triangle uses one.
+// Transfers values at the vertices of to.mesh->source (one row each) to those of from.mesh->source; 0 where
+// no triangle uses a vertex.
 RowMatrixf pulled_back(const DenseMap& map, const PreparedMesh& to, const RowMatrixf& values);
 
 }  // namespace focal

@@ -11,7 +11,7 @@ namespace focal {
 namespace {
 
 constexpr int32_t max_rounds = 50;
-constexpr double descriptor_share = 0.15;  // of SI-HKS beside positions, each of unit spread
+constexpr double descriptor_share = 0.15;  // weight of SI-HKS relative to positions, each of unit spread
 
 const SurfaceAnalysis& analysis_of(const Detection& detection) {
   if (!detection.analysis)
@@ -20,7 +20,7 @@ const SurfaceAnalysis& analysis_of(const Detection& detection) {
   return *detection.analysis;
 }
 
-// Position and SI-HKS of every vertex, each scaled to a mean squared length that says how much it counts.
+// Position and SI-HKS of every vertex, each scaled to a mean squared length that is its weight.
 RowMatrix features_of(const SurfaceAnalysis& analysis, const Execution& execution) {
   const Eigen::Index n = analysis.surface().vertex_count();
   Eigenbasis basis{Vector(analysis.eigenfunctions.cols()), analysis.eigenfunctions.cast<double>()};
@@ -50,7 +50,7 @@ std::vector<int32_t> nearest_centres(const RowMatrix& features, const RowMatrix&
   return label;
 }
 
-// Lloyd's iteration; a cluster that loses all its vertices keeps its centre.
+// Lloyd's algorithm; a cluster that loses all its vertices keeps its centre.
 std::vector<int32_t> k_means(const RowMatrix& features, RowMatrix centres, const Vector& mass,
                              const Execution& execution) {
   std::vector<int32_t> label;
@@ -69,7 +69,7 @@ std::vector<int32_t> k_means(const RowMatrix& features, RowMatrix centres, const
   return label;
 }
 
-// From the vertices of the analysed surface to those of the caller's mesh: the label of the nearest corner.
+// Labels of the caller's vertices from those of the analysed surface: the label of the nearest corner.
 std::vector<int32_t> at_source_vertices(const Detection& detection, const std::vector<int32_t>& coarse,
                                         const Execution& execution) {
   const SurfaceAnalysis& analysis = *detection.analysis;

@@ -1,4 +1,4 @@
-// A label for each triangle, one a landmark: the parts of a shape under names that mean the same on every shape of its category.
+// Labels every triangle with a landmark: segments that have the same meaning on every shape of a category.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -9,15 +9,17 @@ namespace focal {
 
 // Labels of vertices or triangles are landmark numbers; -1: no landmark was found, or no triangle uses the vertex.
 
-// Xia et al. 2016, Section 6: k-means over position and SI-HKS, a cluster starting at each landmark that was found. seed_vertices:
-// start at these vertices of the analysed surface instead, for comparison; labels are then their numbers.
+// Xia et al. 2016, Section 6: k-means over position and SI-HKS, with a cluster starting at each landmark that
+// was found. seed_vertices: start at these vertices of the analysed surface instead, for comparison; labels
+// are then their numbers.
 std::vector<int32_t> segment_k_means(const Detection& detection, const Execution& execution,
                                      const std::vector<int32_t>& seed_vertices = {});
 
 // Each triangle goes to the landmark nearest along the surface.
 std::vector<int32_t> segment_geodesic(const Detection& detection, const Execution& execution);
 
-// The label most of a triangle's vertices have; of three different ones the first corner's. Per triangle of mesh.source.
+// The most frequent label of a triangle's vertices; of three different ones the first corner's. Per triangle
+// of mesh.source.
 std::vector<int32_t> triangle_labels(const PreparedMesh& mesh,
                                      const std::vector<int32_t>& source_vertex_labels);
 

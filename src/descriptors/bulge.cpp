@@ -7,7 +7,7 @@
 namespace focal {
 namespace {
 
-constexpr int32_t max_points = 4000;  // that stand for the surface
+constexpr int32_t max_points = 4000;  // that represent the surface
 
 // Points of the surface in cubes as wide as the largest radius.
 class Cubes {

@@ -1,4 +1,4 @@
-// Numbers that describe the surroundings of a point: the interface of every descriptor, and the list of them.
+// Descriptors of the neighbourhood of a point: the interface of every descriptor, and the list of them.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -12,26 +12,27 @@
 
 namespace focal {
 
-// What a descriptor may look at.
+// The input of a descriptor.
 struct DescribedSurface {
   const TriangleMesh& mesh;
   const Operators& operators;
   const Eigenbasis& basis;
 };
 
-inline constexpr int32_t max_components = 128;  // of a descriptor: as model files have room for
+inline constexpr int32_t max_components = 128;  // of a descriptor: the limit of model files
 
 struct DescriptorKind {
-  std::string_view name;  // a literal: on the command line and in model files
+  std::string_view name;  // a literal, used on the command line and in model files
   int32_t dimension;      // at most max_components
   // vertices: rows of mesh.positions to describe. Returns vertices x dimension.
   RowMatrix (*describe)(const DescribedSurface& surface, std::span<const int32_t> vertices,
                         const Execution& execution);
-  // Of those that are area x squared eigenfunctions x weights: eigenpairs x dimension, which a GPU applies too; else null.
+  // For descriptors that are area x squared eigenfunctions x weights: eigenpairs x dimension, which a GPU can
+  // apply too; else null.
   Matrix (*spectral_weights)(const Vector& lambda, double area) = nullptr;
 };
 
-// How those describe.
+// Evaluates such a descriptor.
 RowMatrix weighted_squares(const DescribedSurface& surface, const Matrix& weights,
                            std::span<const int32_t> vertices, const Execution& execution);
 template <Matrix (*weights)(const Vector& lambda, double area)>
@@ -41,8 +42,8 @@ RowMatrix describe_spectrally(const DescribedSurface& surface, std::span<const i
                           execution);
 }
 
-// All descriptors there are, one line each: the n-th line defines number n in focal.h, so lines are only ever added at the
-// end. A line `kind(NAME)` stands for a function `DescriptorKind NAME_descriptor()` in a file of its own.
+// All descriptors, one per line: line n defines number n in focal.h, so lines may only be added at the end. A
+// line `kind(NAME)` refers to a function `DescriptorKind NAME_descriptor()` in a file of its own.
 // clang-format off
 #define FOCAL_DESCRIPTORS(kind) \
   kind(si_hks)                  \

@@ -1,5 +1,6 @@
-// Heat kernel signature: J. Sun, M. Ovsjanikov, L. Guibas, "A Concise and Provably Informative Multi-Scale Signature
-// Based on Heat Diffusion", 2009. Component k is the heat that stays at a point until t_k, times the area.
+// Heat kernel signature: J. Sun, M. Ovsjanikov, L. Guibas, "A Concise and Provably Informative Multi-Scale
+// Signature Based on Heat Diffusion", 2009. Component k is the heat that remains at a point at time t_k,
+// times the area.
 #include <cmath>
 
 #include "descriptors/descriptor.h"
@@ -8,7 +9,8 @@ namespace focal {
 namespace {
 
 constexpr int32_t dimension = 96;
-// The times of SI-HKS (Xia et al. 2016, Section 5): 2^1 to 2^25 on a surface of this area, in even steps of the exponent.
+// The times of SI-HKS (Xia et al. 2016, Section 5): 2^1 to 2^25 on a surface of this area, evenly spaced
+// exponents.
 constexpr double first_exponent = 1, last_exponent = 25, shape_google_area = 2e4;
 
 Matrix weights(const Vector& lambda, double area) {

@@ -1,4 +1,5 @@
-// The part of a surface round a point that extrinsic descriptors look at: small enough that a bent limb hardly changes it.
+// The part of a surface around a point that extrinsic descriptors use: small enough that a bent limb hardly
+// changes it.
 #pragma once
 #include <vector>
 
@@ -6,14 +7,14 @@
 
 namespace focal {
 
-inline constexpr double support_radius = 0.2;  // of sqrt(area)
+inline constexpr double support_radius = 0.2;  // in sqrt(area)
 
 struct Neighbour {
-  Vector3 offset;  // from the point described
+  Vector3 offset;  // from the described point
   double share;    // of the area of all neighbours
 };
 
-// Vertices within `radius` in space and connected with the point within it.
+// Vertices within `radius` in space that are connected with the point inside that ball.
 std::vector<Neighbour> local_support(const DescribedSurface& surface, int32_t vertex, double radius);
 
 }  // namespace focal

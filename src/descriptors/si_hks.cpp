@@ -15,10 +15,12 @@ namespace {
 constexpr int lanes = 32;
 constexpr int time_count = 241;  // tau = 1, 1.1, ... 25
 constexpr int frequency_count = 20;
-constexpr double reference_area = 2e4;  // the scale of the Shape-Google database, to which the times belong
+// The scale of the Shape-Google database, for which the times are defined.
+constexpr double reference_area = 2e4;
 
-// 20 samples at 0..19 -> values at `si_hks_dimension` even steps over [0, 19] by the cubic spline whose third derivative
-// is continuous at the second and last but one knot ("not a knot"): a linear map, so a matrix.
+// Maps 20 samples at 0..19 to values at `si_hks_dimension` even steps over [0, 19] by the cubic spline whose
+// third derivative is continuous at the second and the last but one knot ("not a knot"): a linear map, so a
+// matrix.
 Matrix spline_matrix() {
   constexpr int n = frequency_count;
   Matrix system = Matrix::Zero(n, n),
@@ -53,7 +55,7 @@ Matrix fourier_matrix() {
   return result;
 }
 
-// Sums of products for 32 samples at a time, which lie side by side: C = A B.
+// Sums of products for 32 interleaved samples at a time: C = A B.
 class Product {
  public:
   explicit Product(const Matrix& A) : rows_((A.rows() + 3) / 4 * 4), inner_(A.cols()), A_(rows_ * inner_) {
@@ -69,14 +71,14 @@ class Product {
 
  private:
   int64_t rows_, inner_;
-  AlignedArray<double> A_;  // by columns
+  AlignedArray<double> A_;  // column-major
 };
 
 struct Steps {
   Product decay, fourier, spline;
 };
 
-// The signatures of up to 32 vertices; samples that are missing repeat the first.
+// The signatures of up to 32 vertices; missing samples repeat the first.
 void describe(const Steps& steps, const Eigenbasis& basis, double scale, std::span<const int32_t> vertices,
               double* result) {
   const Eigen::Index k = basis.Phi.cols();

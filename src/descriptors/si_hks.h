@@ -1,4 +1,4 @@
-// Scale-invariant heat kernel signature: what preset `paper` and preset `default` describe points by.
+// Scale-invariant heat kernel signature: the descriptor of preset `paper` and preset `default`.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -17,8 +17,8 @@ inline constexpr int32_t si_hks_dimension = 96;
 RowMatrix si_hks(const Eigenbasis& basis, double area, std::span<const int32_t> vertices,
                  const Execution& execution = Execution().inner());
 
-// The same as three linear maps between a logarithm's differences and magnitudes, for whoever computes them elsewhere: of the
-// squared eigenfunctions times `scale`.
+// The same as three linear maps, with the logarithm's differences and the magnitudes between them, for
+// implementations elsewhere; the input is the squared eigenfunctions times `scale`.
 struct SiHksMaps {
   double scale;
   int32_t frequencies;

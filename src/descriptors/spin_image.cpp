@@ -1,6 +1,6 @@
-// Spin image: A. Johnson, M. Hebert, "Using Spin Images for Efficient Object Recognition in Cluttered 3D Scenes", 1999. How
-// much of the surface nearby lies at which distance from the normal's line and at which height along it. Points count by
-// the area round them, so that uneven triangles change little.
+// Spin image: A. Johnson, M. Hebert, "Using Spin Images for Efficient Object Recognition in Cluttered 3D
+// Scenes", 1999. A histogram of the nearby surface over the distance from the normal's line and the height
+// along it. Points are weighted by the area around them, so that uneven triangles change little.
 #include <algorithm>
 #include <cmath>
 
@@ -11,7 +11,7 @@ namespace {
 
 constexpr int32_t distances = 8, heights = 12;
 
-// A place between the centres of two bins, and how near it is to the upper one.
+// A position between the centres of two bins, and its weight for the upper one.
 struct Place {
   int32_t lower;
   double share;

@@ -1,6 +1,7 @@
-// Unique shape context: F. Tombari, S. Salti, L. Di Stefano, "Unique Shape Context for 3D Data Description", 2010. How much of
-// the surface nearby lies in which part of a ball, which is cut by distance, height and turn in a frame of the point's own
-// (their "Unique Signatures of Histograms for Local Surface Description", 2010). Points count by the area round them.
+// Unique shape context: F. Tombari, S. Salti, L. Di Stefano, "Unique Shape Context for 3D Data Description",
+// 2010. A histogram of the nearby surface over a ball divided by distance, height and azimuth in a local
+// frame of the point (their "Unique Signatures of Histograms for Local Surface Description", 2010). Points
+// are weighted by the area around them.
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -12,9 +13,9 @@ namespace focal {
 namespace {
 
 constexpr int32_t shells = 3, elevations = 4, azimuths = 8;
-constexpr double innermost = 0.125;  // of the radius: nearer points belong to no bin
+constexpr double innermost = 0.125;  // of the radius: nearer points are in no bin
 
-// Columns x, y, z: the directions of largest and smallest spread, towards where most of the surface lies.
+// Columns x, y, z: the directions of largest and smallest spread, towards the larger part of the surface.
 Matrix3 frame_of(const std::vector<Neighbour>& neighbours, double radius) {
   Matrix3 spread = Matrix3::Zero();
   for (const auto& [offset, share] : neighbours)

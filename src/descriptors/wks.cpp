@@ -1,5 +1,6 @@
-// Wave kernel signature: M. Aubry, U. Schlickewei, D. Cremers, "The Wave Kernel Signature: A Quantum Mechanical Approach to
-// Shape Analysis", 2011. Component k is how likely a particle of about the energy exp(e_k) is found at a point, times the area.
+// Wave kernel signature: M. Aubry, U. Schlickewei, D. Cremers, "The Wave Kernel Signature: A Quantum
+// Mechanical Approach to Shape Analysis", 2011. Component k is the probability of finding a particle of
+// energy about exp(e_k) at a point, times the area.
 #include <algorithm>
 #include <cmath>
 
@@ -11,7 +12,7 @@ namespace {
 constexpr int32_t dimension = 96;
 constexpr double steps_a_deviation = 7;  // of the energies, as in the authors' program
 
-// eigenpairs x energies: how much each eigenfunction counts, every column of sum 1.
+// eigenpairs x energies: the weight of each eigenfunction; every column sums to 1.
 Matrix weights(const Vector& lambda, double area) {
   const Vector e = (lambda.array() * area).max(1e-6).log();
   const auto positive = std::find_if(lambda.begin(), lambda.end(), [&](double l) { return l * area > 1e-3; });

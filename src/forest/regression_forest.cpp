@@ -26,7 +26,7 @@ BinnedDescriptors bin_descriptors(const RowMatrixf& descriptors, const Execution
     auto& upper = result.upper[f];
     for (int32_t b = 1; b < steps; ++b) {
       const int64_t i = b * n / steps;
-      if (i < 1 || !(sorted[i - 1] < sorted[i])) continue;  // equal values share a step
+      if (i < 1 || !(sorted[i - 1] < sorted[i])) continue;  // equal values share a bin
       upper.push_back(sorted[i - 1] + (sorted[i] - sorted[i - 1]) / 2);
     }
     for (int64_t s = 0; s < n; ++s)
@@ -65,7 +65,7 @@ Eigen::VectorXf predict_means(const RegressionForest& forest, const RowMatrixf& 
   Eigen::VectorXf result(descriptors.rows());
   parallel_for_ranges(execution, descriptors.rows(), 256, [&](int64_t begin, int64_t end) {
     Vector sum = Vector::Zero(end - begin);
-    for (const RegressionTree& tree : forest.trees)  // outside: one tree stays in cache for all samples
+    for (const RegressionTree& tree : forest.trees)  // outer loop: one tree stays in cache for all samples
       for (int64_t s = begin; s < end; ++s)
         sum[s - begin] += tree.leaf_mean[tree.leaf_of(descriptors.row(s).data())];
     result.segment(begin, end - begin) = (sum / static_cast<double>(forest.trees.size())).cast<float>();

@@ -12,7 +12,8 @@ namespace {
 FOCAL_MULTIVERSION(void add_to(float* sum, const float* values, int32_t count),
                    for (int32_t i = 0; i < count; ++i) sum[i] += values[i];)
 
-// |left|^2 / n_left + |total - left|^2 / n_right: larger means less variance stays in the two sides together.
+// |left|^2 / n_left + |total - left|^2 / n_right: a larger value means less total variance within the two
+// sides.
 FOCAL_INLINE float gain_body(const float* left, const float* total, float inverse_left, float inverse_right,
                              int32_t count) {
   constexpr int width = 16;  // a fixed number of partial sums gives the same bits at any vector width
@@ -113,7 +114,7 @@ class TreeBuilder {
     return best;
   }
 
-  // Samples in order of their bin by counting, then one pass with the running sum of the left side.
+  // Counting sort of the samples by bin, then one pass with the running sum of the left side.
   void try_feature(int32_t feature, int32_t begin, int32_t end, Split& best) {
     const uint8_t* bins = descriptors_.bins.col(feature).data();
     std::array<int32_t, 257> start{};

@@ -1,5 +1,5 @@
-// Commute-time distance, of a random walk there and back: F. Fouss et al., "Random-Walk Computation of Similarities between
-// Nodes of a Graph", 2007. No unit.
+// Commute-time distance, the expected time of a random walk from one point to the other and back: F. Fouss et
+// al., "Random-Walk Computation of Similarities between Nodes of a Graph", 2007. No unit.
 #include "geodesics/greens_distance.h"
 
 namespace focal {

@@ -1,4 +1,4 @@
-// How far points of a surface are from one another: the interface of every distance, and the list of them.
+// Distances between points of a surface: the interface of every distance, and the list of them.
 #pragma once
 #include <functional>
 #include <memory>
@@ -14,16 +14,16 @@
 
 namespace focal {
 
-// What can be prepared for a surface is made once, then distances come from any number of sources, 32 at a time. Immutable
-// once made: thread-safe.
+// Precomputation for a surface is done once; then distances are computed from any number of sources, 32 at a
+// time. Immutable and thread-safe.
 class Distance {
  public:
   static constexpr int lanes = SparseCholesky::lanes;
 
   virtual ~Distance() = default;
 
-  // Called once a block of up to 32 sources, from several threads at once: distances[v * lanes + j] is the distance, in
-  // the mesh's units and >= 0, of vertex v from source first + j, for j < count.
+  // Called once per block of up to 32 sources, from several threads at once: distances[v * lanes + j] is the
+  // distance, in the mesh's units and >= 0, of vertex v from source first + j, for j < count.
   using BlockSink = std::function<void(int64_t first, int32_t count, const float* distances)>;
   void for_each_block(std::span<const SurfacePoint> sources, const Execution& execution,
                       const BlockSink& sink) const;
@@ -35,11 +35,12 @@ class Distance {
   RowMatrixf distances(std::span<const int32_t> source_vertices, const Execution& execution) const;
 
   int32_t vertex_count() const { return static_cast<int32_t>(positions_.rows()); }
-  // No two vertices are farther apart.
+  // An upper bound of the distance between any two vertices.
   double distance_bound() const { return distance_bound_; }
-  // A sentence on what had to be done to this mesh, or null.
+  // A sentence on a workaround for this mesh, or null.
   virtual const char* warning() const { return nullptr; }
-  // The analysis of L's pattern where one was made, for other factors of the same surface; else null.
+  // The symbolic analysis of L, if there is one, to be reused for other factors of the same surface; else
+  // null.
   virtual std::shared_ptr<const SymbolicFactor> symbolic() const { return nullptr; }
 
   struct Source {
@@ -48,7 +49,8 @@ class Distance {
     float corner_distance = 0;  // weighted mean of the corners' distances from the source
     int32_t triangle = -1;      // -1: the source is vertex[0]
   };
-  // The distances from 1 to 32 sources; out holds vertex_count() * lanes numbers, lanes without a source count for nothing.
+  // The distances from 1 to 32 sources; out has vertex_count() * lanes numbers, lanes without a source are
+  // undefined.
   virtual void solve_block(std::span<const Source> sources, float* out, const Execution& execution) const = 0;
 
  protected:
@@ -66,25 +68,24 @@ class Distance {
 // An upper bound of the largest distance: twice the farthest path along the entries of L from one vertex.
 double diameter_bound(const TriangleMesh& mesh, const SparseMatrix& L);
 
-// What a distance is made of.
+// The input of a distance.
 struct MeasuredSurface {
   const TriangleMesh& mesh;
-  std::span<const std::pair<int32_t, int32_t>>
-      bridges;  // pairs of vertices that link separate parts; read by make alone
+  // Pairs of vertices that link separate parts; used only by make.
+  std::span<const std::pair<int32_t, int32_t>> bridges;
   const Operators& operators;
-  bool paper_exact = false;  // as preset `paper` has it (see HeatMethod)
+  bool paper_exact = false;  // as in preset `paper` (see HeatMethod)
 };
 
 struct DistanceKind {
-  std::string_view name;  // a literal: on the command line and in model files
-  bool is_geodesic;       // lengths along the surface: what preset `default` reckons with
-  bool is_length;         // it grows with the mesh
+  std::string_view name;  // a literal, used on the command line and in model files
+  bool is_geodesic;       // a length along the surface, as preset `default` requires
+  bool is_length;         // proportional to the size of the mesh
   std::shared_ptr<const Distance> (*make)(const MeasuredSurface& surface, const Execution& execution);
 };
 
-// All distances there are, one line each: the n-th line defines number n in focal.h, so lines are only ever added at
-// the end.
-// A line `kind(NAME)` stands for a function `DistanceKind NAME_distance()` in a file of its own.
+// All distances, one per line: line n defines number n in focal.h, so lines may only be added at the end. A
+// line `kind(NAME)` refers to a function `DistanceKind NAME_distance()` in a file of its own.
 // clang-format off
 #define FOCAL_DISTANCES(kind) \
   kind(heat)                  \

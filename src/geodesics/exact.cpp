@@ -1,8 +1,8 @@
-// Exact distances on a triangle mesh: windows, the beams of straight lines that cross an edge, spread over the triangles
-// unfolded into the plane, nearest first.
-// J. Mitchell, D. Mount, C. Papadimitriou, "The Discrete Geodesic Problem", 1987; J. Chen, Y. Han, "Shortest Paths on a
-// Polyhedron", 1990 (one corner, one split); S. Xin, G. Wang, "Improving Chen and Han's Algorithm on the Discrete Geodesic
-// Problem", 2009 (nearest first, and which windows lead nowhere).
+// Exact distances on a triangle mesh: windows (beams of straight lines that cross an edge) are propagated
+// over the triangles unfolded into the plane, nearest first.
+// J. Mitchell, D. Mount, C. Papadimitriou, "The Discrete Geodesic Problem", 1987; J. Chen, Y. Han, "Shortest
+// Paths on a Polyhedron", 1990 (one corner, one split); S. Xin, G. Wang, "Improving Chen and Han's Algorithm
+// on the Discrete Geodesic Problem", 2009 (nearest first, and a filter for useless windows).
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,28 +15,28 @@ namespace focal {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double slack = 1e-10;           // relative: windows that tie stay
+constexpr double slack = 1e-10;           // relative: windows that tie are kept
 constexpr double min_width = 1e-12;       // of an edge
-constexpr int64_t check_interval = 2048;  // windows between two looks at the task
+constexpr int64_t check_interval = 2048;  // windows between two checks for cancellation
 
 // Lines from (x, y), y <= 0, through the points begin..end of a half-edge into the triangle on its left.
 struct Window {
   int32_t half_edge;
   double begin, end;
   double x, y;
-  double offset;  // of the point where the lines start from the source
+  double offset;  // distance from the source to the point where the lines start
   double reach(double at) const { return offset + std::hypot(at - x, y); }
   double nearest() const { return reach(std::clamp(x, begin, end)); }
 };
 
 struct Event {
   double distance;
-  Window window;  // half_edge -1: it is a vertex
+  Window window;  // half_edge -1: a vertex event
   int32_t vertex;
   bool operator<(const Event& other) const { return distance > other.distance; }  // nearest on top
 };
 
-// Of one source.
+// The propagation from one source.
 class Propagation {
  public:
   Propagation(const HalfEdges& edges, const std::vector<std::vector<std::pair<int32_t, double>>>& bridges)
@@ -83,7 +83,7 @@ class Propagation {
 
   void push(const Window& window) { queue_.push({window.nearest(), window, -1}); }
 
-  // Every triangle round a vertex at which paths bend.
+  // Starts windows in every triangle around a vertex at which paths bend.
   void spread_from(int32_t vertex) {
     const double offset = distance_[vertex];
     for (const auto& [other, length] : bridges_[vertex]) improve(other, offset + length);
@@ -93,15 +93,16 @@ class Propagation {
       improve(edges_.origin[back], offset + edges_.length[back]);
       const int32_t twin = edges_.twin[opposite];
       if (twin < 0) continue;
-      const double length = edges_.length[twin];  // the twin runs the other way
+      const double length = edges_.length[twin];  // the twin has the opposite direction
       const Window window{twin,  0, length, length - edges_.apex_x[opposite], -edges_.apex_y[opposite],
                           offset};
       if (leads_somewhere(window, vertex, true)) push(window);
     }
   }
 
-  // Xin and Wang, Theorem 3.2: no line of a window is shortest when one of the corners of the triangle that it comes through
-  // is nearer by far. third: the corner beside its half-edge; from_left: the lines came in beside the half-edge's target.
+  // Xin and Wang, Theorem 3.2: no line of a window is a shortest path when one of the corners of the triangle
+  // that it crosses is much nearer. third: the corner opposite to its half-edge; from_left: the lines entered
+  // beside the half-edge's target.
   bool leads_somewhere(const Window& w, int32_t third, bool from_left) const {
     const double length = edges_.length[w.half_edge];
     const double at_begin = w.reach(w.begin) * (1 - slack), at_end = w.reach(w.end) * (1 - slack);
@@ -122,17 +123,19 @@ class Propagation {
   struct Corner {
     double distance, crossing;
   };
-  std::vector<Corner> corner_;  // per half-edge: the window that reaches the opposite corner soonest
+  std::vector<Corner> corner_;  // per half-edge: the window that reaches the opposite corner first
   std::priority_queue<Event> queue_;
 };
 
-// The lines of w that cross its half-edge between from and to leave the triangle by its half-edge on the left or right.
+// The lines of w that cross its half-edge between from and to, and leave the triangle by its half-edge on the
+// left or right.
 void Propagation::push_child(const Window& w, double from, double to, bool ends_at_apex, bool is_left) {
   const int32_t h = w.half_edge, out = is_left ? HalfEdges::previous(h) : HalfEdges::next(h);
   const int32_t twin = edges_.twin[out], third = is_left ? edges_.target(h) : edges_.origin[h];
   const double length = edges_.length[out], apex_x = edges_.apex_x[h], apex_y = edges_.apex_y[h];
   if (twin < 0 || !(length > 0) || !(from < to)) return;
-  // The child's first axis runs along the twin: on the left from the origin of h to the apex, on the right from there on.
+  // The child's x axis is along the twin: on the left from the origin of h to the apex, on the right from the
+  // apex on.
   const double ox = is_left ? 0 : apex_x, oy = is_left ? 0 : apex_y;
   const double ux = (is_left ? apex_x : edges_.length[h] - apex_x) / length,
                uy = (is_left ? apex_y : -apex_y) / length;
@@ -158,7 +161,7 @@ void Propagation::spread(const Window& w) {
   const bool sees_apex = at == crossing;
   bool goes_left = true, goes_right = true;
   if (sees_apex) {
-    // Of two windows that see the corner, the one that reaches it later is cut off by the other's line to it.
+    // Of two windows that see the corner, the later one is cut off by the other's line to it.
     Corner& best = corner_[h];
     if (distance > best.distance * (1 + slack))
       (crossing < best.crossing ? goes_right : goes_left) = false;
@@ -190,7 +193,8 @@ class ExactDistance final : public Distance {
       start(propagation, sources[j]);
       propagation.run(execution);
       const std::vector<double>& distance = propagation.distance();
-      for (size_t v = 0; v < distance.size(); ++v)  // what is not connected lies as far as anything can
+      for (size_t v = 0; v < distance.size();
+           ++v)  // vertices that are not connected get the largest possible distance
         out[v * lanes + j] = static_cast<float>(std::min(distance[v], distance_bound_));
     }
   }
@@ -206,7 +210,7 @@ class ExactDistance final : public Distance {
   }
 
   HalfEdges edges_;
-  std::vector<std::vector<std::pair<int32_t, double>>> bridges_;  // per vertex: the other end, how far
+  std::vector<std::vector<std::pair<int32_t, double>>> bridges_;  // per vertex: the other end and the length
 };
 
 }  // namespace

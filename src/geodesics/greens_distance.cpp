@@ -8,7 +8,8 @@
 namespace focal {
 namespace {
 
-// Of the Laplacian, in units of 1 / area: makes it definite, slivers or not, and lies far below its other eigenvalues.
+// Shift of the Laplacian, in units of 1 / area: makes it definite even with slivers, and is far below its
+// other eigenvalues.
 constexpr double shift = 1e-6;
 
 SparseMatrix shifted(SparseMatrix L, const Operators& operators) {
@@ -42,7 +43,8 @@ class GreensDistance final : public Distance {
     return G.data()[static_cast<size_t>(factor_.permutation()[vertex]) * lanes + j];
   }
 
-  // Takes from each lane its mean over the surface. is_density: values a vertex; else integrals round it, as L gives them.
+  // Subtracts from each lane its mean over the surface. is_density: values per vertex; else integrals around
+  // it, as L returns.
   void centre(const AlignedArray<double>& values, bool is_density) const {
     double mean[lanes] = {};
     for (int32_t v = 0; v < vertex_count(); ++v)
@@ -51,7 +53,7 @@ class GreensDistance final : public Distance {
       for (int j = 0; j < lanes; ++j) at(values, v, j) -= (is_density ? 1 : mass_[v]) * mean[j];
   }
 
-  // The sources' columns of G.
+  // Columns of G for the sources.
   AlignedArray<double> columns(std::span<const Source> sources, const Execution& execution) const {
     AlignedArray<double> G(static_cast<size_t>(vertex_count()) * lanes);
     std::fill_n(G.data(), G.size(), 0.0);

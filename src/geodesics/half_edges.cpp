@@ -7,9 +7,9 @@
 namespace focal {
 namespace {
 
-constexpr double surplus = 1e-6;  // of the angle round a vertex: less bends no path by more than its square
+constexpr double surplus = 1e-6;  // of the angle around a vertex: the effect on a path is of its square
 
-// Twins by sorting: two half-edges of opposite direction, and no third between the same vertices.
+// Finds twins by sorting: two half-edges of opposite direction, and no third between the same vertices.
 void find_twins(HalfEdges& edges) {
   const auto count = static_cast<int32_t>(edges.origin.size());
   const auto key = [&](int32_t h) {
@@ -36,7 +36,7 @@ void find_apexes(HalfEdges& edges) {
     const double a = edges.length[h], b = edges.length[HalfEdges::next(h)],
                  c = edges.length[HalfEdges::previous(h)];
     edges.apex_x[h] = a > 0 ? (a * a + c * c - b * b) / (2 * a) : 0;
-    // A triangle without area is given a little, so that every line has a place to cross it.
+    // A degenerate triangle gets a small height, so that every line can cross it.
     edges.apex_y[h] = std::max(std::sqrt(std::max(c * c - edges.apex_x[h] * edges.apex_x[h], 0.0)),
                                1e-12 * std::max({a, b, c, 1e-300}));
   }

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int lanes = HeatMethod::lanes;
 
-// Heat falls off like exp(-d / sqrt(t)); a double holds about exp(-700).
+// Heat decays like exp(-d / sqrt(t)); the smallest double is about exp(-700).
 constexpr double representable_decay = 650;
 
 SparseMatrix plus_diagonal(SparseMatrix A, const Vector& diagonal) {
@@ -20,9 +20,10 @@ SparseMatrix plus_diagonal(SparseMatrix A, const Vector& diagonal) {
   return A;
 }
 
-// Right-hand side of the Poisson equation, all triangles and lanes. With u the heat, L_f the triangle's Laplacian and g
-// the gradient, X = -g / |g| has integrated divergence L_f u / |g| at the corners, so no 3D vector is formed; and
-// |g|^2 = u^T L_f u / area. u is first divided by its largest corner, which keeps tiny heat far away exact.
+// Right-hand side of the Poisson equation, for all triangles and lanes. With the heat u, the triangle's
+// Laplacian L_f and the gradient g, X = -g / |g| has the integrated divergence L_f u / |g| at the corners, so
+// no 3D vector is formed; and |g|^2 = u^T L_f u / area. u is first divided by its largest corner, which keeps
+// tiny values far away exact.
 struct Faces {
   const int32_t* corner;     // count x 3
   const float* coefficient;  // count x 4: half cotangents, area
@@ -47,8 +48,8 @@ FOCAL_INLINE void faces_body(const Faces& faces, const double* heat, float* rhs)
     }
     const float *c = faces.coefficient + 4 * f, c0 = c[0], c1 = c[1], c2 = c[2], area = c[3];
     for (int j = 0; j < lanes; ++j) {
-      const float energy =
-          c0 * d[0][j] * d[0][j] + c1 * d[1][j] * d[1][j] + c2 * d[2][j] * d[2][j];  // u^T L_f u
+      // u^T L_f u
+      const float energy = c0 * d[0][j] * d[0][j] + c1 * d[1][j] * d[1][j] + c2 * d[2][j] * d[2][j];
       weight[j] = counts[j] * std::sqrt(area / std::max(energy, 1e-30f));
     }
     float *b0 = rhs + int64_t{corner[0]} * lanes, *b1 = rhs + int64_t{corner[1]} * lanes,
@@ -80,7 +81,8 @@ HeatMethod::HeatMethod(const TriangleMesh& mesh, const Operators& operators, con
       time_ = heat_time(mesh, operators, time_factor);
       distance_bound_ = time_.distance_bound;
       heat_ = SparseCholesky(plus_diagonal(time_.t * operators.L, operators.mass), symbolic, execution);
-    } else {  // The shift makes L definite. The constant mode is amplified by its inverse: 1e-6 leaves the float solve
+    } else {
+      // The shift makes L definite. It amplifies the constant mode by its inverse: with 1e-6 the float solve keeps
       // five digits.
       poisson_ = SparseCholesky(plus_diagonal(operators.L, 1e-6 / operators.area * operators.mass), symbolic,
                                 execution);
@@ -94,7 +96,7 @@ HeatMethod::HeatMethod(const TriangleMesh& mesh, const Operators& operators, con
         {row[a], row[b], static_cast<float>((mesh.positions.row(a) - mesh.positions.row(b)).norm())});
 }
 
-// A bridge is an edge of weight 1 in L along which distance grows by the gap, away from the heat.
+// A bridge is an edge of weight 1 in L along which distance increases by the gap, away from the heat.
 void HeatMethod::add_bridges(const double* heat, float* rhs) const {
   for (const Bridge& bridge : bridges_)
     for (int j = 0; j < lanes; ++j) {
@@ -160,8 +162,8 @@ void HeatMethod::solve_block(std::span<const Source> sources, float* out, const 
   execution.check_cancelled();
   poisson_.solve_block(distance);
   execution.check_cancelled();
-  float zero
-      [lanes];  // the level that is distance 0: at the corners round a source it lies as far below as they are away
+  // The value that corresponds to distance 0: at the corners around a source it is lower by their distance.
+  float zero[lanes];
   for (int j = 0; j < lanes; ++j) {
     const Source& source = sources[std::min<size_t>(j, sources.size() - 1)];
     zero[j] = -source.corner_distance;

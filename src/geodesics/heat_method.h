@@ -4,25 +4,27 @@
 
 namespace focal {
 
-// t = time_factor * mean edge length squared, raised on meshes so large that heat would underflow at the far end.
+// t = time_factor * mean edge length squared, raised on meshes so large that heat would underflow at the
+// farthest point.
 struct HeatTime {
   double t, distance_bound;  // see Distance
   bool raised;
-  // A sentence on it where it was raised, else null.
+  // A sentence if it was raised, else null.
   const char* warning() const {
     return raised ? "the mesh is so fine that the time step of the heat method was raised" : nullptr;
   }
 };
 HeatTime heat_time(const TriangleMesh& mesh, const Operators& operators, double time_factor = 1);
 
-// Two factors, made once.
+// Two factorisations, computed once.
 class HeatMethod final : public Distance {
  public:
   HeatMethod() = default;
-  // bridges: those of the operators; what lies beyond one is farther by the length of its gap.
-  // execution is asked for cancellation between the factors. keep_negative_heat: obtuse triangles can make far heat
-  // slightly negative; its gradient counts like any other (the method to the letter) or not at all, which measured
-  // better (lion set, 18 % of such weights: 10 instead of 16 % of the diameter off the exact distance).
+  // bridges: those of the operators; points beyond one are farther by the length of its gap. execution is
+  // checked for cancellation between the factorisations. keep_negative_heat: obtuse triangles can make
+  // distant heat slightly negative; its gradient is used like any other (the published method) or not at all,
+  // which is more accurate (lion set, 18 % of such weights: 10 instead of 16 % of the diameter off the exact
+  // distance).
   HeatMethod(const TriangleMesh& mesh, const Operators& operators, const Execution& execution = {},
              double time_factor = 1, bool keep_negative_heat = false,
              std::span<const std::pair<int32_t, int32_t>> bridges = {});
@@ -38,7 +40,7 @@ class HeatMethod final : public Distance {
   void add_bridges(const double* heat, float* rhs) const;
 
   struct Bridge {
-    int32_t from, to;  // permuted
+    int32_t from, to;  // permuted numbers
     float length;
   };
 

@@ -1,4 +1,5 @@
-// The numbers an accessor stands for (glTF 2.0, section 3.6.2). Counts, types and extents were checked by parse_gltf.
+// Reads the numbers of an accessor (glTF 2.0, section 3.6.2). parse_gltf has checked counts, types and
+// extents.
 #include "gltf/accessor.h"
 
 #include <algorithm>
@@ -13,9 +14,10 @@
 namespace focal {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "glTF data is little-endian and read as it stands");
+static_assert(std::endian::native == std::endian::little,
+              "glTF data is little-endian and read without conversion");
 
-// Where entries lie: entry i begins at data[i * stride].
+// Position of the entries: entry i starts at data[i * stride].
 struct Source {
   std::span<const std::byte> data;
   int64_t stride;
@@ -84,7 +86,7 @@ int64_t stride_of(const tiny::BufferView& view, int64_t packed) {
   return view.byteStride > 0 ? static_cast<int64_t>(view.byteStride) : packed;
 }
 
-// The values of a sparse accessor, or what says where they go.
+// The values of a sparse accessor, or their indices.
 Source packed_source(GltfBuffers& buffers, int64_t view, int64_t offset, const Element& element) {
   return {buffers.view(view).subspan(static_cast<size_t>(offset)), element.size()};
 }
@@ -102,7 +104,7 @@ void put_sparse(const tiny::Accessor& accessor, GltfBuffers& buffers, const Plac
               sparse.count);
   for (Eigen::Index i = 0; i < sparse.count; ++i) {
     if (places(i) >= static_cast<double>(rows.rows()))
-      fail_field(place, "sparse", "replaces an entry that is not there");
+      fail_field(place, "sparse", "replaces an entry that does not exist");
     rows.row(static_cast<Eigen::Index>(places(i))) = values.row(i);
   }
 }

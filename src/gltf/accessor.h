@@ -1,4 +1,4 @@
-// The numbers an accessor stands for.
+// Reads the numbers of an accessor.
 #pragma once
 #include <cstdint>
 
@@ -8,8 +8,8 @@
 
 namespace focal {
 
-// One row an entry; sparse entries put in, normalised integers scaled to [0, 1] or [-1, 1]. Doubles hold every
-// component type exactly. Matrices are column-major within the row.
+// One row per entry; sparse entries substituted, normalised integers scaled to [0, 1] or [-1, 1]. Doubles
+// represent every component type exactly. Matrices are column-major within the row.
 RowMatrix read_accessor(const GltfView& view, GltfBuffers& buffers, int64_t index);
 
 }  // namespace focal

@@ -1,4 +1,4 @@
-// New data for a document: accessors and views, and the buffer behind them.
+// Adds data to a document: accessors and views, and their buffer.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -14,10 +14,11 @@ enum class ViewTarget { none = 0, vertices = 34962, indices = 34963 };
 
 class AccessorWriter {
  public:
-  // bin: the BIN chunk of a .glb, which grows; in a .gltf, or where buffer 0 is something else, a data: URI is hung behind.
+  // bin: the BIN chunk of a .glb, which is extended; in a .gltf, or where buffer 0 is something else, adds a
+  // buffer with a data: URI.
   AccessorWriter(OrderedJson& root, std::span<const std::byte> bin, bool is_binary);
 
-  // components: 1, 3, 4 or 16 (a matrix) numbers an entry. Its index.
+  // components: 1, 3, 4 or 16 (a matrix) numbers per entry. Returns the accessor's index.
   template <class T>
   size_t add(const std::vector<T>& values, int components, ViewTarget target = ViewTarget::none) {
     return add(std::as_bytes(std::span(values)), component_type<T>(),
@@ -26,7 +27,7 @@ class AccessorWriter {
   OrderedJson& accessor(size_t index) { return root_["accessors"][index]; }
   void put_bounds(size_t accessor, std::span<const double> low, std::span<const double> high);
 
-  // Says how long the buffer is. The BIN chunk; empty when the data went into a buffer of its own.
+  // Sets the length of the buffer. Returns the BIN chunk; empty when the data went into a buffer of its own.
   std::vector<std::byte> finish();
 
  private:
@@ -41,7 +42,7 @@ class AccessorWriter {
              ViewTarget target);
 
   OrderedJson& root_;
-  std::vector<std::byte> data_;  // of buffer_, from its beginning
+  std::vector<std::byte> data_;  // of buffer_, from its start
   bool owns_bin_;
   size_t buffer_ = 0;
 };

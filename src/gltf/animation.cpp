@@ -1,4 +1,4 @@
-// What the animations of a file do to its nodes.
+// Reads the animations of a file.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -30,12 +30,12 @@ void check(const Keys& keys, Eigen::Index width) {
   const auto is_finite = [](double time) { return std::isfinite(time); };
   if (keys.empty() || keys.values.rows() != rows || keys.values.cols() != width || !keys.values.allFinite() ||
       !std::all_of(keys.times.begin(), keys.times.end(), is_finite))
-    broken("has keys that do not fit together");
+    broken("has keys of inconsistent sizes or values");
   if (std::adjacent_find(keys.times.begin(), keys.times.end(), std::greater_equal<>()) != keys.times.end())
-    broken("has times that do not ascend");
+    broken("has key times that are not ascending");
 }
 
-// Reads keys while there is memory allowed for them: many channels may name one large accessor.
+// Reads keys within a memory limit: many channels may refer to one large accessor.
 class KeyReader {
  public:
   KeyReader(const GltfView& view, GltfBuffers& buffers, int64_t max_bytes)
@@ -49,7 +49,7 @@ class KeyReader {
     if (sampler.interpolation == "STEP") keys.interpolation = Interpolation::step;
     if (sampler.interpolation == "CUBICSPLINE") keys.interpolation = Interpolation::cubic;
     const RowMatrix times = read_accessor(view_, buffers_, sampler.input);
-    if (times.cols() != 1) broken("has keys that do not fit together");
+    if (times.cols() != 1) broken("has keys of inconsistent sizes or values");
     keys.times.assign(times.data(), times.data() + times.rows());
     keys.values = read_accessor(view_, buffers_, sampler.output);
     check(keys, width);
@@ -64,7 +64,7 @@ class KeyReader {
     left_ -= static_cast<int64_t>(from.count * sizeof(double)) *
              tiny::GetNumComponentsInType(static_cast<uint32_t>(from.type));
     if (left_ < 0)
-      throw Error(Status::unsupported, "glTF with more keys of animations than memory is allowed for",
+      throw Error(Status::unsupported, "glTF with more animation keys than the memory limit allows",
                   "export fewer animations, or raise the limit");
   }
 
@@ -95,8 +95,8 @@ GltfAnimations GltfDocument::animations() const {
     }
     if (left_out > 0)
       result.warnings.push_back("animation '" + printable(clip.name) + "': " + std::to_string(left_out) +
-                                (left_out == 1 ? " channel moves" : " channels move") +
-                                " something else than a joint (morph weights, a material)");
+                                (left_out == 1 ? " channel animates" : " channels animate") +
+                                " something other than a joint (morph weights, a material)");
     if (!clip.channels.empty()) result.clips.push_back(std::move(clip));
   }
   return result;

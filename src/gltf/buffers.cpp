@@ -1,4 +1,5 @@
-// Buffers from the GLB chunk, data: URIs and neighbouring files; buffer views by EXT_meshopt_compression.
+// Reads buffers from the GLB chunk, data: URIs and neighbouring files; decodes buffer views with
+// EXT_meshopt_compression.
 #include "gltf/buffers.h"
 
 #include <meshoptimizer.h>
@@ -15,7 +16,7 @@
 namespace focal {
 namespace {
 
-// The preconditions of each decoder are asserts in the library, so they are checked here.
+// Each decoder's preconditions are asserts in the library, so they are checked here.
 bool decode_mode(const std::string& mode, std::vector<std::byte>& out, size_t count, size_t stride,
                  std::span<const std::byte> in) {
   const auto* data = reinterpret_cast<const unsigned char*>(in.data());
@@ -64,7 +65,8 @@ std::span<const std::byte> GltfBuffers::view(int64_t index) {
   return found->second;
 }
 
-// parse_gltf has seen to it that the extent lies in the buffer's length, and buffer() that so many bytes are there.
+// parse_gltf has checked that the extent is within the buffer's length, and buffer() that this many bytes
+// exist.
 std::span<const std::byte> GltfBuffers::extent(int64_t index, int64_t offset, int64_t length) {
   return buffer(index).subspan(static_cast<size_t>(offset), static_cast<size_t>(length));
 }
@@ -86,9 +88,9 @@ std::span<const std::byte> GltfBuffers::buffer(int64_t index) {
     fail_field(place, "uri", "is missing and there is no BIN chunk for it");
   }
   if (static_cast<int64_t>(bytes.size()) < source.length)
-    fail_field(
-        place, "byteLength",
-        "is " + std::to_string(source.length) + " where " + std::to_string(bytes.size()) + " bytes are");
+    fail_field(place, "byteLength",
+               "is " + std::to_string(source.length) + ", but the buffer has " +
+                   std::to_string(bytes.size()) + " bytes");
   return bytes;
 }
 
@@ -113,7 +115,7 @@ std::vector<std::byte> GltfBuffers::decode(const tiny::Value& compressed, const 
   };
   const auto source = extent(number("buffer"), number("byteOffset"), number("byteLength"));
   const int64_t count = number("count"), stride = number("byteStride");
-  // The codecs cannot shrink data further than this, so a tiny file cannot ask for a huge block.
+  // The maximum compression ratio of the codecs, so that a tiny file cannot request a huge block.
   constexpr int64_t best_ratio = 1024;
   if (count * stride > best_ratio * static_cast<int64_t>(source.size()))
     fail_field(place, "extensions", "EXT_meshopt_compression announces more data than it can hold");

@@ -1,4 +1,4 @@
-// The bytes behind buffers and buffer views, fetched and decompressed when first asked for.
+// The bytes of buffers and buffer views, loaded and decompressed on first use.
 #pragma once
 #include <cstddef>
 #include <filesystem>
@@ -13,19 +13,21 @@
 
 namespace focal {
 
-// The place beside a document that a URI in it names; nothing when it names none (an address, an absolute path). Backslashes count as
-// slashes, and a % that begins no escape as itself, as many exporters write them.
+// The path beside a document that a URI in it refers to; empty for others (an address, an absolute path).
+// Backslashes count as slashes, and a % that starts no escape sequence is literal, as many exporters write
+// them.
 std::optional<std::filesystem::path> path_beside(const std::string& uri);
 
 class GltfBuffers {
  public:
-  // Buffers in other files are read from `folder`, or refused without one. What is passed must live as long as this.
+  // Buffers in other files are read from `folder`, or refused without one. The arguments must outlive this
+  // object.
   GltfBuffers(const GltfView& view, const GltfContainer& container, const GltfLimits& limits,
               const std::optional<std::filesystem::path>& folder)
       : view_(view), container_(container), limits_(limits), folder_(folder) {}
 
-  // The view's bytes, EXT_meshopt_compression decoded; valid as long as this object.
-  // Throws invalid_file, unsupported, file_not_found, io.
+  // The bytes of a view, EXT_meshopt_compression decoded; valid as long as this object. Throws invalid_file,
+  // unsupported, file_not_found, io.
   std::span<const std::byte> view(int64_t index);
 
  private:
@@ -33,7 +35,7 @@ class GltfBuffers {
   std::vector<std::byte> load(const std::string& uri, const Place& place) const;
   std::span<const std::byte> extent(int64_t buffer, int64_t offset, int64_t length);
   std::vector<std::byte> decode(const tiny::Value& compressed, const Place& place);
-  void charge(int64_t bytes);  // against limits_.decoded_bytes
+  void charge(int64_t bytes);  // counts against limits_.decoded_bytes
 
   const GltfView& view_;
   const GltfContainer& container_;

@@ -22,7 +22,7 @@ uint32_t little_endian_at(std::span<const std::byte> bytes, size_t at) {
 
 Error broken_file(const std::string& what) {
   return Error(Status::invalid_file, "GLB: " + what,
-               "the file is truncated or damaged; copy or export it again");
+               "the file is truncated or corrupt; copy or export it again");
 }
 
 struct Chunk {
@@ -30,12 +30,12 @@ struct Chunk {
   std::span<const std::byte> data;
 };
 
-// Takes the next chunk off the front of `bytes`.
+// Removes the next chunk from the front of `bytes`.
 Chunk take_chunk(std::span<const std::byte>& bytes) {
   if (bytes.size() < chunk_header_size) throw broken_file("a chunk header is cut off");
   const size_t length = little_endian_at(bytes, 0);
   if (length > bytes.size() - chunk_header_size)
-    throw broken_file("a chunk of " + std::to_string(length) + " bytes where " +
+    throw broken_file("a chunk of " + std::to_string(length) + " bytes, but only " +
                       std::to_string(bytes.size() - chunk_header_size) + " are left");
   const Chunk chunk{little_endian_at(bytes, 4), bytes.subspan(chunk_header_size, length)};
   bytes = bytes.subspan(chunk_header_size + length);
@@ -128,7 +128,7 @@ std::vector<std::byte> with_content(const GltfContainer& container, std::string_
   }
   if (bin.empty()) return glb_bytes(json, container.rest);
   std::vector<std::byte> chunks = bin_chunk(bin);
-  size_t first = 0, behind = 0;  // where the old BIN chunk lies
+  size_t first = 0, behind = 0;  // range of the old BIN chunk
   if (container.has_bin) {
     first = static_cast<size_t>(container.bin.data() - container.rest.data()) - chunk_header_size;
     behind = first + chunk_header_size + container.bin.size();

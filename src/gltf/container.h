@@ -1,4 +1,4 @@
-// The two ways a glTF document comes: as text, or in a GLB of chunks.
+// The two containers of a glTF document: JSON text, or a GLB of chunks.
 #pragma once
 #include <cstddef>
 #include <span>
@@ -15,21 +15,22 @@ struct GltfContainer {
   std::span<const std::byte> json;
   bool has_bin = false;
   std::span<const std::byte> bin;   // the BIN chunk, padding included
-  std::span<const std::byte> rest;  // every chunk after the JSON chunk, headers included, as they stand
+  std::span<const std::byte> rest;  // every chunk after the JSON chunk, headers included, unchanged
 };
 
-// Checks the GLB header and chunk arithmetic. A .gltf is whatever does not begin like a .glb; what is plainly another kind of
-// file is refused by its name. Throws invalid_file, unsupported (glTF 1, a limit exceeded).
+// Checks the GLB header and the chunk sizes. Any file that does not start like a .glb counts as a .gltf;
+// recognisable other file types are refused by their name. Throws invalid_file, unsupported (glTF 1, a limit
+// exceeded).
 GltfContainer open_container(std::span<const std::byte> bytes, const GltfLimits& limits);
 
-// Header, the JSON chunk (padded), then `chunks` as they stand (headers included).
-// Throws unsupported when the sum does not fit the 32-bit length of the format.
+// Header, the JSON chunk (padded), then `chunks` unchanged (headers included). Throws unsupported when the
+// total does not fit the 32-bit length of the format.
 std::vector<std::byte> glb_bytes(std::string_view json, std::span<const std::byte> chunks);
 
 // A BIN chunk: header, data, padding.
 std::vector<std::byte> bin_chunk(std::span<const std::byte> data);
 
-// The container with other JSON and, where `bin` is not empty, another BIN chunk; other chunks stay.
+// The container with other JSON and, if `bin` is not empty, another BIN chunk; other chunks are kept.
 std::vector<std::byte> with_content(const GltfContainer& container, std::string_view json,
                                     std::span<const std::byte> bin);
 

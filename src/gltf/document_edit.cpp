@@ -15,7 +15,8 @@ OrderedJson& fresh(OrderedJson& slot, OrderedJson::value_t kind) {
   return slot = OrderedJson(kind);
 }
 
-// The members but `left_out`, in an object with room for more. Values are swapped, once there is a place for each.
+// Moves all members except `left_out` to an object with room for more. Values are swapped once there is a
+// place for each.
 void move_members(OrderedJson& object, size_t room, const std::string* left_out = nullptr) {
   OrderedJsonDocument rest;
   fresh(rest.root(), OrderedJson::value_t::object);

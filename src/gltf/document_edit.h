@@ -1,7 +1,8 @@
-// Small edits of the caller's own glTF document, in place, so that the rest of it is carried through untouched.
+// Small edits of the caller's own glTF document, in place, so that the rest of it is preserved unchanged.
 //
-// nlohmann's destructors take memory, in noexcept, to flatten the nested values that they free, and an object that grows copies its
-// values. So nothing nested is assigned here: new values are made where they stay, and old ones are taken apart by OrderedJsonDocument.
+// nlohmann's destructors allocate memory, in noexcept functions, to flatten the nested values that they free,
+// and a growing object copies its values. So nothing nested is assigned here: new values are created in
+// place, and old ones are dismantled by OrderedJsonDocument.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -17,36 +18,36 @@ namespace focal {
 
 using OrderedJson = nlohmann::ordered_json;
 
-// An empty object or list in the place of what is there.
+// Replaces the value by an empty object or list.
 OrderedJson& new_object(OrderedJson& slot);
 OrderedJson& new_list(OrderedJson& slot);
 
-// A member, made as null when missing: references to other members of the object end then.
+// A member, created as null if missing, which invalidates references to other members of the object.
 OrderedJson& at(OrderedJson& object, const std::string& key);
 
-// The same, made as an empty value of this kind.
+// The same, created as an empty value of this kind.
 OrderedJson& member_or_new(OrderedJson& object, const char* key, OrderedJson::value_t kind);
 
-// Takes a member out, if it is there; references to members of the object end then.
+// Removes a member if it exists; this invalidates references to members of the object.
 bool remove(OrderedJson& object, const std::string& key);
 
-OrderedJson* find(OrderedJson& object, const char* key);  // null when there is none
+OrderedJson* find(OrderedJson& object, const char* key);  // null if missing
 
-// Appends an empty object to a list of the root, and a copy of an element; its index.
+// Appends an empty object, or a copy of an element, to a list of the root; returns its index.
 size_t append_element(OrderedJson& root, const char* list);
 size_t append_copy(OrderedJson& root, const char* list, size_t element);
 
-// A member of numbers, as short as single precision allows.
+// Sets a member to numbers, written as short as single precision allows.
 void put_numbers(OrderedJson& object, const char* key, std::span<const double> values);
 void put_vector(OrderedJson& object, const char* key, const Vector3& values);
 double short_number(double finite);
 
-// The scene that is shown, or the first. A file without any gets one that shows all its roots. References to members of the root
-// end here.
+// The default scene, or the first. A file without scenes gets one that shows all its roots. Invalidates
+// references to members of the root.
 OrderedJson& shown_scene(OrderedJson& root);
 
-// What the channels of an animation move, KHR_animation_pointer's too. Animations are not looked at by parse_gltf: what is malformed moves
-// node -1.
+// The targets of an animation's channels, including those of KHR_animation_pointer. parse_gltf does not check
+// animations: malformed channels have node -1.
 struct ChannelTarget {
   int64_t node = -1;
   std::string path;
@@ -55,8 +56,8 @@ std::vector<ChannelTarget> channel_targets(OrderedJson& animation);
 
 OrderedJson* focal_extras(OrderedJson& element);  // extras.focal, or null
 
-// Nodes for new content: those that an earlier call left behind (taking them out of the list would renumber the others), then
-// new ones.
+// Nodes for new content: first those released by an earlier call (removing them from the list would renumber
+// the others), then new ones.
 class NodePool {
  public:
   explicit NodePool(OrderedJson& root) : root_(root) {}

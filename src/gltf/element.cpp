@@ -1,4 +1,4 @@
-// What one entry of an accessor is made of (glTF 2.0, section 3.6.2).
+// Layout of one entry of an accessor (glTF 2.0, section 3.6.2).
 #include "gltf/element.h"
 
 #include <array>

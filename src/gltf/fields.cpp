@@ -43,7 +43,7 @@ void fail_field(const Place& place, const char* key, const std::string& what) {
 }
 
 const json* member(const json& object, const char* key) {
-  const auto found = object.find(key);  // end() too when `object` is none
+  const auto found = object.find(key);  // also end() when `object` is not an object
   return found == object.end() ? nullptr : &*found;
 }
 

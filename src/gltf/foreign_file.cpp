@@ -18,9 +18,9 @@ struct Kind {
 };
 
 constexpr const char* import_hint = "import it in Blender (File, Import) and export it as .glb";
-constexpr const char* unpack_hint = "unpack it and pass the .glb or .gltf that it holds";
+constexpr const char* unpack_hint = "unpack it and pass the .glb or .gltf in it";
 constexpr std::array kinds{
-    Kind{"version https://git-lfs.github.com/spec/", "a Git LFS pointer, not the file it stands for",
+    Kind{"version https://git-lfs.github.com/spec/", "a Git LFS pointer instead of the file",
          "fetch the file: git lfs install, then git lfs pull"},
     Kind{"Kaydara FBX Binary", "an FBX file", import_hint},
     Kind{"; FBX", "an FBX file (text)", import_hint},
@@ -30,12 +30,12 @@ constexpr std::array kinds{
     Kind{"BLENDER", "a Blender file", "open it in Blender and export it as .glb (File, Export, glTF 2.0)"},
     Kind{"#usda", "a USD file", import_hint},
     Kind{"PXR-USDC", "a USD file", import_hint},
-    Kind{"PK\x03\x04", "a zip archive (USDZ and 3MF are such, too)", unpack_hint},
+    Kind{"PK\x03\x04", "a zip archive (or USDZ, 3MF)", unpack_hint},
     Kind{"\x1f\x8b", "a gzip archive", unpack_hint},
     Kind{"7z\xbc\xaf\x27\x1c", "a 7z archive", unpack_hint},
     Kind{"Rar!", "a RAR archive", unpack_hint},
-    Kind{"\x89PNG", "a PNG picture", "pass the model, not its picture"},
-    Kind{"\xff\xd8\xff", "a JPEG picture", "pass the model, not its picture"},
+    Kind{"\x89PNG", "a PNG picture", "pass the model, not an image of it"},
+    Kind{"\xff\xd8\xff", "a JPEG picture", "pass the model, not an image of it"},
     Kind{"%PDF", "a PDF document", "pass a .glb or .gltf file"},
     Kind{"FOCALMDL", "a focal model", "pass it as the model, and a .glb or .gltf file as the mesh"},
 };
@@ -45,7 +45,7 @@ string_view without_space(string_view text) {
   return at == string_view::npos ? string_view() : text.substr(at);
 }
 
-// Whatever the case of the text.
+// Case-insensitive.
 bool begins(string_view text, string_view with) {
   return text.size() >= with.size() && std::equal(with.begin(), with.end(), text.begin(), [](char a, char b) {
            return a == (b >= 'A' && b <= 'Z' ? b - 'A' + 'a' : b);
@@ -54,7 +54,7 @@ bool begins(string_view text, string_view with) {
 
 bool is_html(string_view text) { return begins(text, "<!doctype html") || begins(text, "<html"); }
 
-// OBJ has no mark of its own: its lines begin with one of a few words.
+// OBJ has no signature: its lines start with one of a few words.
 bool is_obj(string_view text) {
   for (int line = 0; line < 50 && !text.empty(); ++line) {
     text = without_space(text);
@@ -86,8 +86,7 @@ void refuse_foreign_file(std::span<const std::byte> bytes) {
   for (const Kind& kind : kinds)
     if (text.starts_with(kind.begin)) refuse(kind.name, kind.hint);
   const string_view first = without_space(text);
-  if (is_html(first))
-    refuse("a web page", "it is what a server sent in place of the file; download it again");
+  if (is_html(first)) refuse("a web page", "the server sent it instead of the file; download it again");
   if (begins(first, "<?xml") || begins(first, "<collada")) refuse("an XML file (COLLADA, X3D)", import_hint);
   if (is_obj(text)) refuse("an OBJ file", import_hint);
   if (is_binary_stl(bytes)) refuse("an STL file", import_hint);

@@ -1,4 +1,4 @@
-// Two passes of nlohmann's iterative SAX parser: one that only measures, one that builds.
+// Two passes of nlohmann's iterative SAX parser: the first measures, the second builds.
 #include "gltf/json.h"
 
 #include <algorithm>
@@ -15,17 +15,18 @@ namespace {
 const char* begin_of(std::span<const std::byte> text) { return reinterpret_cast<const char*>(text.data()); }
 
 [[noreturn]] void fail_syntax(const std::string& explanation) {
-  // "[json.exception.parse_error.101] parse error at line 1, column 2: ...; last read: ..." without its
-  // frame.
+  // Extracts the message of "[json.exception.parse_error.101] parse error at line 1, column 2: ...; last
+  // read: ...".
   const size_t start = explanation.find("] ");
   const size_t from = start == std::string::npos ? 0 : start + 2;
   throw Error(Status::invalid_file,
               "JSON: " + printable(explanation.substr(from, explanation.find(';') - from)),
-              "the file is damaged or not glTF; export it again");
+              "the file is corrupt or not glTF; export it again");
 }
 
-// The first pass: syntax, depth and size, before any memory is taken. Also the member count of every object
-// in order of opening, so that the second pass never has to grow (that is, copy) an ordered object.
+// The first pass checks syntax, depth and size before allocating anything. It also counts the members of
+// every object in order of opening, so that the second pass never has to grow (that is, copy) an ordered
+// object.
 template <class Json>
 class Measurer : public nlohmann::json_sax<Json> {
  public:
@@ -68,7 +69,7 @@ class Measurer : public nlohmann::json_sax<Json> {
 
   JsonLimits limits_;
   int64_t values_ = 0;
-  std::vector<int32_t> open_;  // per open container: its place in members, -1 for an array
+  std::vector<int32_t> open_;  // per open container: its index in members, -1 for an array
 };
 
 template <class Json>
@@ -114,14 +115,14 @@ class Builder : public nlohmann::json_sax<Json> {
     }
     auto& object = open_.back()->template get_ref<Object&>();
     if constexpr (is_ordered) {
-      // Past its own emplace, which looks through all keys: quadratic, and the keys are known to differ.
+      // Bypasses its own emplace, which searches all keys: quadratic, and the keys are known to be distinct.
       auto& list = static_cast<typename Object::Container&>(object);
       return list.emplace_back(std::move(key_), std::move(value)).second;
     } else {
       const auto [place, is_new] = object.emplace(key_, std::move(value));
       if (!is_new)
-        throw Error(Status::invalid_file, "JSON gives the key '" + printable(key_) + "' twice in one object",
-                    "the file is damaged; export it again");
+        throw Error(Status::invalid_file, "JSON has the key '" + printable(key_) + "' twice in one object",
+                    "the file is corrupt; export it again");
       return place->second;
     }
   }

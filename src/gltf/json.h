@@ -1,7 +1,8 @@
-// JSON from untrusted bytes, held so that neither depth nor a failing allocation can end the process.
+// Parses JSON from untrusted bytes and stores it so that neither depth nor a failing allocation can terminate
+// the process.
 //
 // nlohmann::json is used through its SAX parser, which is iterative, with the limits checked on every event.
-// Its destructor allocates inside noexcept to flatten nested values; a JsonDocument takes its tree apart from
+// Its destructor allocates inside noexcept to flatten nested values; a JsonDocument dismantles its tree from
 // the leaves instead, which needs no memory.
 #pragma once
 #include <cstddef>
@@ -22,7 +23,7 @@ template <class Json>
 class BasicJsonDocument {
  public:
   BasicJsonDocument() = default;  // null
-  // Throws invalid_file (syntax, UTF-8, a key given twice), unsupported (a limit exceeded).
+  // Throws invalid_file (syntax, UTF-8, a duplicate key), unsupported (a limit exceeded).
   BasicJsonDocument(std::span<const std::byte> text, const JsonLimits& limits);
   BasicJsonDocument(BasicJsonDocument&& other) noexcept : root_(std::move(other.root_)) {}
   BasicJsonDocument& operator=(BasicJsonDocument&&) = delete;
@@ -38,7 +39,8 @@ class BasicJsonDocument {
   Json root_;
 };
 
-// Whether a value is this text: nlohmann's own == makes a value of it, which may throw where nothing may.
+// Whether a value is this text: nlohmann's own == creates a value from the text, which may throw where
+// nothing may throw.
 template <class Json>
 bool is_text(const Json& value, std::string_view text) {
   const auto* own = value.template get_ptr<const typename Json::string_t*>();
@@ -46,7 +48,7 @@ bool is_text(const Json& value, std::string_view text) {
 }
 
 using JsonDocument = BasicJsonDocument<nlohmann::json>;
-using OrderedJsonDocument =
-    BasicJsonDocument<nlohmann::ordered_json>;  // keeps the order of keys, for writing
+// Keeps the order of keys, for writing.
+using OrderedJsonDocument = BasicJsonDocument<nlohmann::ordered_json>;
 
 }  // namespace focal

@@ -1,4 +1,4 @@
-// Landmarks put into the caller's own glTF document.
+// Adds landmarks to the caller's own glTF document.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -49,8 +49,8 @@ class LandmarkInserter {
   NodePool pool_;
 };
 
-// The group of an earlier call leaves the scene, and its nodes may be used again. One to which the user has hung something of
-// his own stays.
+// Removes the group of an earlier call from the scene and releases its nodes. A group to which the user has
+// attached other nodes is kept.
 void LandmarkInserter::release_former_nodes(Json& scene_nodes) {
   Json& nodes = root_["nodes"];
   const auto is_bare = [&](const Json& index) {
@@ -106,7 +106,7 @@ const GltfPrimitive& LandmarkInserter::primitive_of(const GltfLandmark& landmark
   const auto found = std::find_if(primitives_.begin(), primitives_.end(), holds);
   if (found == primitives_.end())
     throw Error(Status::invalid_landmark,
-                "landmark '" + printable(landmark.name) + "' lies on triangle " +
+                "landmark '" + printable(landmark.name) + "' is on triangle " +
                     std::to_string(landmark.point.triangle) + ", which the file does not have",
                 "pass the primitives read from this file");
   return *found;
@@ -122,7 +122,7 @@ void LandmarkInserter::describe_place(const GltfLandmark& landmark, const GltfPr
   at(to, "primitive") = primitive.primitive;
   at(to, "triangle") = landmark.point.triangle - primitive.first_triangle;
   put_vector(to, "barycentric", weights);
-  // Where several nodes show the mesh, the one that is meant.
+  // If several nodes show the mesh, the primitive's own node.
   if (std::any_of(primitives_.begin(), primitives_.end(), is_other)) at(to, "node") = primitive.node;
 }
 
@@ -139,8 +139,8 @@ void LandmarkInserter::add_mesh_extras(std::span<const GltfLandmark> landmarks) 
     const auto entry = entries.find(static_cast<int32_t>(mesh));
     if (entry == entries.end() && !focal_extras(element)) continue;
     Json& extras = member_or_new(element, "extras", Json::value_t::object);
-    if (!extras.is_object())
-      continue;  // extras may be anything; another's number or text is not ours to replace
+    // Extras can be anything; a number or text of another program is not ours to replace.
+    if (!extras.is_object()) continue;
     Json& own = new_object(at(extras, "focal"));
     own["version"] = format_version;
     Json& list = new_list(own["landmarks"]);

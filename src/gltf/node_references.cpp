@@ -10,7 +10,7 @@ namespace {
 using Json = OrderedJson;
 using Map = std::map<int64_t, int64_t>;
 
-// Calls use(value) for each value at a path of members; "*" is each member or element.
+// Calls use(value) for each value at a path of members; "*" means each member or element.
 template <class Use>
 void for_each_at(Json& value, std::string_view path, const Use& use) {
   if (path.empty()) return use(value);
@@ -40,7 +40,7 @@ constexpr std::array joint_paths{
     "extensions/VRM/secondaryAnimation/colliderGroups/*/node",
     "nodes/*/extensions/VRMC_node_constraint/constraint/*/source",
 };
-// VRM 0 names meshes there, whose numbers stay.
+// VRM 0 refers to meshes there, whose numbers do not change.
 constexpr std::array mesh_paths{
     "extensions/VRMC_vrm/expressions/*/*/morphTargetBinds/*/node",
     "extensions/VRMC_vrm/firstPerson/meshAnnotations/*/node",

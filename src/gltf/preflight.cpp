@@ -1,4 +1,4 @@
-// Every count, index, offset and extent of a glTF document is checked here, once, in 64-bit arithmetic.
+// Checks every count, index, offset and extent of a glTF document once, in 64-bit arithmetic.
 #include "gltf/preflight.h"
 
 #include <algorithm>
@@ -66,7 +66,7 @@ void check_asset(const json& root) {
                 "convert the file to glTF 2.0");
 }
 
-// Extensions that say nothing on where the surface lies, and the two that are decoded.
+// Extensions that do not affect the position of the surface, and the two that are decoded.
 bool is_understood(const std::string& name) {
   constexpr std::array prefixes{"KHR_materials_", "KHR_texture_", "EXT_texture_",  "MSFT_texture_",
                                 "KHR_lights_",    "EXT_lights_",  "KHR_animation_"};
@@ -80,7 +80,8 @@ void check_extensions(const json& root) {
   const json* required = array(root, "extensionsRequired", {"document"});
   if (!required) return;
   for (const json& entry : *required) {
-    if (!entry.is_string()) fail_field({"document"}, "extensionsRequired", "holds something else than names");
+    if (!entry.is_string())
+      fail_field({"document"}, "extensionsRequired", "contains something other than names");
     const auto& name = entry.get_ref<const std::string&>();
     if (is_understood(name)) continue;
     const bool draco = name == "KHR_draco_mesh_compression";
@@ -121,7 +122,7 @@ void check_view(const json& root, const json& view, const Place& place) {
   text(*compressed, "filter", place);
 }
 
-// Checks that `count` entries fit into the view that `owner` names.
+// Checks that `count` entries fit into the view that `owner` refers to.
 void check_entries(const json& root, const json& owner, const Place& place, const Element& element,
                    int64_t count, bool may_be_strided) {
   const int64_t index = reference(owner, "bufferView", place, count_of(root, "bufferViews"), true);
@@ -143,7 +144,7 @@ void check_sparse(const json& root, const json& sparse, const Place& place, cons
   if (!indices || !values) fail_field(place, "sparse", "lacks indices or values");
   Element index;
   index.type = static_cast<ComponentType>(integer(*indices, "componentType", place, 5121, 5125));
-  if (!is_index_type(index.type)) fail_field(place, "sparse", "has indices of a type that is none");
+  if (!is_index_type(index.type)) fail_field(place, "sparse", "has indices of an unsupported type");
   check_entries(root, *indices, place, index, count, false);
   check_entries(root, *values, place, element, count, false);
 }
@@ -161,7 +162,8 @@ void check_accessor(const json& root, const json& accessor, const Place& place, 
 
 constexpr int64_t unknown = -1;
 
-// All attributes of a primitive or morph target name accessors with one entry a vertex. Returns that number.
+// All attributes of a primitive or morph target must refer to accessors with one entry per vertex. Returns
+// that number.
 int64_t check_attributes(const json& root, const json& attributes, const Place& place, int64_t vertices) {
   for (const auto& [name, value] : attributes.items()) {
     const int64_t index = as_reference(value, name.c_str(), place, count_of(root, "accessors"));
@@ -189,7 +191,7 @@ void check_primitive(const json& root, const json& primitive, const Place& place
   const json* targets = array(primitive, "targets", place);
   if (!targets) return;
   for (const json& target : *targets) {
-    if (!target.is_object()) fail_field(place, "targets", "holds something else than objects");
+    if (!target.is_object()) fail_field(place, "targets", "contains something other than objects");
     check_attributes(root, target, place, vertices);
   }
 }
@@ -197,7 +199,7 @@ void check_primitive(const json& root, const json& primitive, const Place& place
 void check_weights(const json& owner, const Place& place) {
   const json* weights = array(owner, "weights", place);
   if (weights && !std::all_of(weights->begin(), weights->end(), [](const json& w) { return w.is_number(); }))
-    fail_field(place, "weights", "holds something else than numbers");
+    fail_field(place, "weights", "contains something other than numbers");
 }
 
 void check_mesh(const json& root, const json& mesh, const Place& place, const GltfLimits& limits,
@@ -209,7 +211,7 @@ void check_mesh(const json& root, const json& mesh, const Place& place, const Gl
     fail_field(place, "primitives", "is missing or empty; --lenient (lenient) leaves such a mesh out");
   check_number(static_cast<int64_t>(primitives->size()), "primitives of a mesh", limits);
   for (const json& primitive : *primitives) {
-    if (!primitive.is_object()) fail_field(place, "primitives", "holds something else than objects");
+    if (!primitive.is_object()) fail_field(place, "primitives", "contains something other than objects");
     check_primitive(root, primitive, place);
   }
 }
@@ -261,7 +263,7 @@ int64_t check_skin(const json& root, const json& skin, const Place& place) {
   return element.count;
 }
 
-// The sum is limited too: a thousand skins may name the same large accessor.
+// The total is limited too: a thousand skins may refer to the same large accessor.
 void check_skins(const json& root, const GltfLimits& limits) {
   int64_t matrices = 0;
   for_each(root, "skins", [&](const json& skin, const Place& place) {
@@ -270,7 +272,7 @@ void check_skins(const json& root, const GltfLimits& limits) {
   });
 }
 
-// At most one parent each, and everything hangs on a root: then there is no cycle.
+// At most one parent each, and everything reachable from a root: then there is no cycle.
 void check_forest(const json& root) {
   const json& nodes = list(root, "nodes");
   std::vector<bool> has_parent(nodes.size());

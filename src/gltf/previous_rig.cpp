@@ -13,7 +13,7 @@ class FormerRigs {
   FormerRig release();
 
  private:
-  // The node and all below it, parents first; empty when the user has hung something there.
+  // The node and its descendants, parents first; empty when the user has attached other nodes.
   std::vector<size_t> bare_tree(size_t top);
   void release_groups();
   void release_skins();
@@ -21,7 +21,7 @@ class FormerRigs {
   bool is_released(const Json& node) const { return released_[node.get<size_t>()]; }
 
   Json& root_;
-  std::vector<bool> released_;  // a node
+  std::vector<bool> released_;  // per node
   FormerRig result_;
 };
 

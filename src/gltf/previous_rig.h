@@ -1,4 +1,4 @@
-// The skeleton that an earlier call put into a document makes way for the next one.
+// Removes the skeleton of an earlier call from a document.
 #pragma once
 #include <cstddef>
 #include <vector>
@@ -8,12 +8,12 @@
 namespace focal {
 
 struct FormerRig {
-  std::vector<size_t> nodes;  // of its joints and tips, out of the scene now
-  std::vector<size_t> skins;  // no node uses them now
+  std::vector<size_t> nodes;  // of its joints and tips, no longer in the scene
+  std::vector<size_t> skins;  // no longer used by a node
 };
 
-// Takes every "focal_skeleton" out of the scene, with its skins and with the animations that move its joints alone. One to which
-// the user has hung something of his own (a mesh, a camera) stays.
+// Removes every "focal_skeleton" from the scene, with its skins and with the animations of its joints only.
+// One to which the user has attached other nodes (a mesh, a camera) is kept.
 FormerRig release_previous_rig(OrderedJson& root);
 
 }  // namespace focal

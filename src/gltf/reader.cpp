@@ -1,4 +1,4 @@
-// The meshes that a file shows, primitive by primitive into one.
+// Merges the meshes that a file shows into one, primitive by primitive.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -13,11 +13,11 @@
 namespace focal {
 namespace {
 
-// A primitive that will be read, with its sizes known from the JSON alone.
+// A primitive to be read, with its sizes known from the JSON alone.
 struct Part {
   const tiny::Primitive* primitive;
   int64_t corners;                     // entries of the index list, or vertices without one
-  const std::vector<double>* weights;  // of its morph targets, as the file shows them
+  const std::vector<double>* weights;  // default weights of its morph targets in the file
   GltfPrimitive range;
 };
 
@@ -25,7 +25,7 @@ std::string name_of(const GltfPrimitive& range) {
   return "mesh " + std::to_string(range.mesh) + ", primitive " + std::to_string(range.primitive);
 }
 
-// Draco keeps the data in an extension and leaves the accessors without any: they would read as zeros.
+// Draco stores the data in an extension and leaves the accessors empty: they would read as zeros.
 void refuse_draco(const tiny::Model& model, const tiny::Primitive& primitive,
                   const tiny::Accessor& positions) {
   if (!extension(primitive.extensions, "KHR_draco_mesh_compression") || has_view(model, positions)) return;
@@ -40,7 +40,8 @@ void require(bool within, const char* what, int64_t limit) {
                 "decimate the model or raise the limit");
 }
 
-// What is to be read and where it goes, from the JSON alone, so that the totals are checked before memory is taken.
+// Plans what to read and where it goes, from the JSON alone, so that the totals are checked before memory is
+// allocated.
 class Plan {
  public:
   Plan(const tiny::Model& model, const GltfLimits& limits)
@@ -128,7 +129,7 @@ void Plan::add(const MeshPlacement& placement, const tiny::Primitive& primitive,
   triangles_ += triangle_count;
 }
 
-// In the mesh's own coordinates, with its morph targets put in.
+// In the mesh's own coordinates, with its morph targets applied.
 RowMatrix shape_of(const GltfView& view, GltfBuffers& buffers, const Part& part) {
   RowMatrix local = read_accessor(view, buffers, part.primitive->attributes.at("POSITION"));
   const auto& targets = part.primitive->targets;
@@ -153,12 +154,13 @@ void read_positions(const GltfView& view, GltfBuffers& buffers, const Part& part
       world.row(v) = (transforms[v] * local.row(v).transpose().homogeneous()).head<3>().transpose();
   }
   for (Eigen::Index vertex = 0; vertex < world.rows(); ++vertex) {
-    if (world.row(vertex).cast<float>().allFinite()) continue;  // as callers and files get it
+    if (world.row(vertex).cast<float>().allFinite())
+      continue;  // in single precision, as callers and files get it
     if (!lenient)
-      throw Error(Status::invalid_mesh,
-                  name_of(part.range) + ": vertex " + std::to_string(vertex) +
-                      " lies at a position that is not finite",
-                  "repair the mesh in the program it was made with");
+      throw Error(
+          Status::invalid_mesh,
+          name_of(part.range) + ": vertex " + std::to_string(vertex) + " has a position that is not finite",
+          "repair the mesh in the program it was made with");
     world.row(vertex).setConstant(std::numeric_limits<double>::quiet_NaN());
   }
 }
@@ -206,14 +208,14 @@ GltfMesh GltfDocument::mesh() const {
   for (const Part& part : plan.parts()) {
     if (part.primitive->mode == TINYGLTF_MODE_TRIANGLES && part.corners % 3 != 0)
       result.warnings.push_back(name_of(part.range) +
-                                ": the number of corners is no multiple of three; the rest was left out");
+                                ": the number of corners is not a multiple of three; the rest was left out");
     read_positions(view, buffers, part, params.lenient, result.mesh.positions);
     read_triangles(view, buffers, part, params.lenient, result.mesh.triangles);
     result.primitives.push_back(part.range);
   }
-  // Said last, since a buffer that cannot be read is the better explanation.
+  // Reported last, since an unreadable buffer is the better explanation.
   if (result.mesh.triangle_count() == 0)
-    throw Error(Status::invalid_mesh, "the file holds no triangles", "pass a file with a triangle mesh");
+    throw Error(Status::invalid_mesh, "the file has no triangles", "pass a file with a triangle mesh");
   return result;
 }
 

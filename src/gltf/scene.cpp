@@ -1,4 +1,5 @@
-// Which meshes the file shows, and where: iterative, since nodes may be nested as deep as there are nodes.
+// Finds the meshes that the file shows, and their transforms: iterative, since nodes may be nested as deep as
+// there are nodes.
 #include "gltf/scene.h"
 
 #include <algorithm>
@@ -27,7 +28,7 @@ NodePose pose_of(const tiny::Node& node) {
 // The nodes at and below `start`: parents first, children in their order.
 std::vector<int32_t> depth_first(const tiny::Model& model, const std::vector<int32_t>& start) {
   std::vector<int32_t> order, open(start.rbegin(), start.rend());
-  std::vector<bool> seen(model.nodes.size());  // a scene may name a node twice, or a node and its child
+  std::vector<bool> seen(model.nodes.size());  // a scene may list a node twice, or a node and its child
   while (!open.empty()) {
     const int32_t node = open.back();
     open.pop_back();
@@ -61,8 +62,8 @@ class Nodes {
   const tiny::Model& model;
   const NodeTree tree;
   const std::vector<Matrix4> world;
-  std::vector<bool> is_hidden;       // it or a node above it is not visible
-  std::vector<bool> hangs_on_joint;  // it or a node above it is a joint of a skin
+  std::vector<bool> is_hidden;       // the node or one above it is hidden
+  std::vector<bool> hangs_on_joint;  // the node or one above it is a joint of a skin
   std::string name(int32_t node) const;
   std::vector<int32_t> with_mesh_below(const std::vector<int32_t>& start) const;
 };
@@ -93,7 +94,7 @@ std::vector<int32_t> Nodes::with_mesh_below(const std::vector<int32_t>& start) c
   return order;
 }
 
-// The nodes whose meshes count: those of the default scene, else of all scenes, else all there are.
+// The nodes whose meshes are read: those of the default scene, else of all scenes, else all nodes.
 std::vector<int32_t> shown_nodes(const Nodes& nodes, std::vector<std::string>& warnings) {
   const auto& scenes = nodes.model.scenes;
   const int chosen = nodes.model.defaultScene;
@@ -105,20 +106,20 @@ std::vector<int32_t> shown_nodes(const Nodes& nodes, std::vector<std::string>& w
   for (const tiny::Scene& scene : scenes) start.insert(start.end(), scene.nodes.begin(), scene.nodes.end());
   auto found = nodes.with_mesh_below(start);
   if (chosen >= 0 && !found.empty())
-    warnings.push_back("the default scene shows no mesh; all scenes were taken");
+    warnings.push_back("the default scene shows no mesh; all scenes are used");
   if (!found.empty()) return found;
   found = nodes.with_mesh_below(roots_of(nodes.tree.parent));
-  if (!found.empty()) warnings.push_back("no scene shows a mesh; all nodes were taken");
+  if (!found.empty()) warnings.push_back("no scene shows a mesh; all nodes are used");
   return found;
 }
 
-// Where all is hidden, all of it counts: a file of costumes that a program shows one at a time.
+// If everything is hidden, everything is read: a file of costumes that a program shows one at a time.
 void leave_out_hidden(const Nodes& nodes, std::vector<int32_t>& shown, std::vector<std::string>& hidden,
                       std::vector<std::string>& warnings) {
   const auto is_hidden = [&](int32_t node) { return nodes.is_hidden[static_cast<size_t>(node)]; };
   if (std::none_of(shown.begin(), shown.end(), is_hidden)) return;
   if (std::all_of(shown.begin(), shown.end(), is_hidden)) {
-    warnings.push_back("KHR_node_visibility hides every mesh; they were taken as if they were shown");
+    warnings.push_back("KHR_node_visibility hides every mesh; all are used");
     return;
   }
   for (const int32_t node : shown) {
@@ -130,10 +131,10 @@ void leave_out_hidden(const Nodes& nodes, std::vector<int32_t>& shown, std::vect
   std::erase_if(shown, is_hidden);
 }
 
-// Whether joints that lie apart are all bound in one place.
+// Whether joints at different positions are all bound in one position.
 bool makes_no_shape(const SkinPlace& place, const std::vector<Matrix4>& world,
                     const std::vector<int>& joints) {
-  constexpr double one_place = 1e-3;  // of the skeleton's size
+  constexpr double one_place = 1e-3;  // relative to the skeleton's size
   Eigen::AlignedBox3d bound, shown;
   for (size_t j = 0; j < joints.size(); ++j) {
     const Matrix4 bind = place.transform * place.inverse_bind[j].inverse();
@@ -144,7 +145,7 @@ bool makes_no_shape(const SkinPlace& place, const std::vector<Matrix4>& world,
   return bound.diagonal().norm() < one_place * shown.diagonal().norm();
 }
 
-// The places of the skins that shown nodes wear.
+// The transforms of the skins that shown nodes use.
 std::map<int32_t, SkinPlace> worn_skins(const GltfView& view, GltfBuffers& buffers, const Nodes& nodes,
                                         const std::vector<int32_t>& shown,
                                         std::vector<std::string>& warnings) {
@@ -156,16 +157,17 @@ std::map<int32_t, SkinPlace> worn_skins(const GltfView& view, GltfBuffers& buffe
         skins.emplace(skin, skin_place(view, buffers, nodes.tree, nodes.world, skin)).first->second;
     if (place.is_posed)
       warnings.push_back("skin " + std::to_string(skin) +
-                         ": its bind matrices make no shape; the pose that the file shows was taken");
+                         ": its bind matrices make no shape; the pose that the file shows is used");
     else if (place.is_other_pose)
       warnings.push_back(
           "skin " + std::to_string(skin) +
-          ": the file shows the character in another pose than its bind pose; the bind pose was taken");
+          ": the file shows the character in another pose than its bind pose; the bind pose is used");
   }
   return skins;
 }
 
-// The joint of a worn skin that each node is or hangs on: the skin, and which of its joints; -1 where there is none.
+// For each node the joint of a used skin that it is or is below: the skin, and the index of the joint; -1 for
+// none.
 std::vector<std::pair<int32_t, int32_t>> joints_above(const Nodes& nodes,
                                                       const std::map<int32_t, SkinPlace>& skins) {
   std::vector<std::pair<int32_t, int32_t>> result(nodes.world.size(), {-1, -1});
@@ -181,7 +183,7 @@ std::vector<std::pair<int32_t, int32_t>> joints_above(const Nodes& nodes,
   return result;
 }
 
-// A mesh that hangs on a joint goes where the bind pose has that joint.
+// Moves a mesh below a joint to where the bind pose has that joint.
 void hang_on_joint(const Nodes& nodes, const SkinPlace& place, int32_t skin, int32_t joint,
                    MeshPlacement& placement) {
   const int32_t node = nodes.model.skins[static_cast<size_t>(skin)].joints[static_cast<size_t>(joint)];
@@ -267,7 +269,7 @@ ShownMeshes placed_meshes(const GltfView& view, GltfBuffers& buffers, bool hidde
   for (const int32_t node : shown)
     result.placements.push_back(placement_of(nodes, node, skins, joints[static_cast<size_t>(node)]));
   if (result.placements.empty() && !view.model.meshes.empty()) {
-    warnings.push_back("no node shows a mesh; the meshes were taken as they stand");
+    warnings.push_back("no node shows a mesh; the meshes are used without a transform");
     for (size_t mesh = 0; mesh < view.model.meshes.size(); ++mesh)
       result.placements.push_back({"mesh " + std::to_string(mesh), static_cast<int32_t>(mesh)});
   }

@@ -1,4 +1,4 @@
-// The skeleton that a file's skins make, and the weights of the merged vertices.
+// Merges a file's skins into one skeleton, and reads the weights of the merged vertices.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -18,10 +18,11 @@ class Skeleton {
   Skeleton(const GltfView& view, GltfBuffers& buffers)
       : view_(view), buffers_(buffers), tree_(node_tree(view.model)), world_(world_transforms(tree_)) {}
 
-  // The first skin that names a joint decides where it is bound. Skins that share joints may do so in other units.
+  // The first skin that contains a joint defines its bind transform. Skins that share joints may use
+  // different units.
   void add(int32_t skin);
   bool is_empty() const { return binds_.empty(); }
-  // Parents before children; order_of gives each node's place.
+  // Parents before children; order_ maps each node to its index.
   std::vector<Joint> joints();
   int32_t order_of(int32_t node) const { return order_.at(node); }
   bool has(int32_t node) const { return order_.contains(node); }
@@ -37,7 +38,7 @@ class Skeleton {
   std::map<int32_t, Matrix4> binds_;
   std::map<int32_t, int32_t> order_;
   std::set<std::string> taken_;
-  std::map<std::string, int32_t> names_;  // how often each is used
+  std::map<std::string, int32_t> names_;  // number of uses of each
 };
 
 void Skeleton::add(int32_t skin) {
@@ -53,7 +54,7 @@ void Skeleton::add(int32_t skin) {
   }
 }
 
-// Names are how joints of different files find each other: within one they differ.
+// Joints of different files are matched by name, so names must be unique within one file.
 std::string Skeleton::free_name(int32_t node) {
   const std::string& own = view_.model.nodes[static_cast<size_t>(node)].name;
   const std::string base = own.empty() ? "joint" + std::to_string(node) : own;
@@ -67,7 +68,7 @@ std::string Skeleton::free_name(int32_t node) {
 
 std::vector<Joint> Skeleton::joints() {
   std::vector<Joint> result;
-  std::vector<int32_t> above(tree_.order.size(), -1);  // per node the joint that it is or hangs on
+  std::vector<int32_t> above(tree_.order.size(), -1);  // per node the joint that it is or is below
   for (const int32_t node : tree_.order) {
     const int32_t parent = tree_.parent[node];
     above[node] = parent < 0 ? -1 : above[parent];
@@ -83,7 +84,7 @@ std::vector<Joint> Skeleton::joints() {
 RowMatrix four_a_vertex(const GltfView& view, GltfBuffers& buffers, int accessor, int32_t vertices) {
   RowMatrix rows = read_accessor(view, buffers, accessor);
   if (rows.rows() < vertices || rows.cols() != 4)
-    throw Error(Status::invalid_file, "joints or weights of a primitive are not four a vertex",
+    throw Error(Status::invalid_file, "joints or weights of a primitive are not four per vertex",
                 "export the file again");
   return rows;
 }

@@ -19,7 +19,7 @@ std::vector<float> single(const RowMatrix& rows) {
   return values;
 }
 
-// glTF wants the last row of a bind matrix to be exact.
+// glTF requires the last row of a bind matrix to be exact.
 void append_affine(Matrix4 matrix, std::vector<float>& values) {
   matrix.row(3) << 0, 0, 0, 1;
   for (const double x : matrix.reshaped()) values.push_back(static_cast<float>(x));
@@ -62,7 +62,7 @@ void SkinData::add_weight_set(const GltfPrimitive& primitive, const std::vector<
   for (int32_t v = 0; v < primitive.vertex_count; ++v) {
     VertexInfluences influences = all[primitive.first_vertex + v];
     if (set == 0 && !(influences[0].weight > 0))
-      influences[0] = {0, 1};  // a vertex of no triangle: glTF wants a sum of 1
+      influences[0] = {0, 1};  // a vertex of no triangle: glTF requires a sum of 1
     for (const Influence& one : influences) {
       const int32_t joint = one.weight > 0 ? one.joint : 0;
       fits ? narrow.push_back(static_cast<uint8_t>(joint)) : wide.push_back(static_cast<uint16_t>(joint));
@@ -77,7 +77,7 @@ void SkinData::add_weight_set(const GltfPrimitive& primitive, const std::vector<
   at(attributes, "WEIGHTS_" + std::to_string(set)) = shares;
 }
 
-// move(vertex, row) changes a row.
+// move(vertex, row) modifies a row.
 template <class Move>
 void SkinData::replace(Json& attributes, const char* name, bool has_bounds, const Move& move) {
   Json* old = find(attributes, name);
@@ -129,11 +129,11 @@ void SkinData::turn_triangles(const GltfPrimitive& primitive) {
                                               primitive.first_vertex));
   const size_t accessor = writer_->add(indices, 1, ViewTarget::indices);
   Json& element = primitive_of(primitive);
-  remove(element, "mode");  // a strip or fan is a list now
+  remove(element, "mode");  // a strip or fan has become a list
   at(element, "indices") = accessor;
 }
 
-// The name, or the first of "name (2)", "name (3)", ... that no animation of the file has.
+// The name, or the first of "name (2)", "name (3)", ... that no animation of the file uses.
 std::string SkinData::free_animation_name(const std::string& name) {
   std::set<std::string> taken;
   if (Json* animations = find(root_, "animations"); animations && animations->is_array())
@@ -144,7 +144,7 @@ std::string SkinData::free_animation_name(const std::string& name) {
   return free;
 }
 
-// Channels with the same times share them, as in most files.
+// Channels with the same times share an accessor, as in most files.
 size_t SkinData::times_accessor(const std::vector<double>& times) {
   for (const auto& [known, accessor] : times_)
     if (known == times) return accessor;
@@ -179,7 +179,7 @@ void SkinData::add_animation(const JointAnimation& animation, const std::vector<
   };
   if (std::none_of(animation.joints.begin(), animation.joints.end(), moves)) return;
   const std::string name = free_animation_name(animation.name);
-  OrderedJsonDocument made;  // complete before it is put in
+  OrderedJsonDocument made;  // complete before it is inserted
   Json& element = new_object(made.root());
   element["name"] = name;
   new_list(element["samplers"]);

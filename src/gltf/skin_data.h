@@ -1,4 +1,5 @@
-// The numbers of a skin that is put into a document: matrices, weights, keys, and vertices that its joints do not place any more.
+// The data of a skin that is added to a document: matrices, weights, keys, and vertices that its joints no
+// longer place.
 #pragma once
 #include <optional>
 #include <string>
@@ -16,18 +17,21 @@ class SkinData {
       : root_(root), rig_(rig), view_(view), buffers_(std::move(buffers)), container_(container) {}
 
   void begin();
-  size_t add_inverse_binds(const Matrix4& world_transform);  // the accessor
-  size_t add_binds_as_shown(const OrderedJson& joints);      // of a skin's nodes where they stand in the file
-  // The rig's weights in the place of those that the primitive has.
+  size_t add_inverse_binds(const Matrix4& world_transform);  // returns the accessor
+  size_t add_binds_as_shown(const OrderedJson& joints);      // of a skin's nodes in the pose of the file
+  // Replaces the primitive's weights by those of the rig.
   void add_weights(const GltfPrimitive& primitive);
-  // Of a primitive that its joints placed: positions, normals, tangents and morph targets as they are shown.
+  // Of a primitive that its joints place: stores positions, normals, tangents and morph targets in the shown
+  // pose.
   void place_vertices(const GltfPrimitive& primitive);
-  // A skin's mesh ignores its node, a mirroring one too: its triangles are turned, so that their outside stays outside.
+  // The mesh of a skin ignores its node, also a reflecting one: its triangles are reversed to stay
+  // counter-clockwise from outside.
   void turn_triangles(const GltfPrimitive& primitive);
   void add_animation(const JointAnimation& animation, const std::vector<size_t>& joint_node);
   std::vector<std::byte> finish() { return writer_->finish(); }
 
-  // Whether a node of the file, or one below it, is something to be seen and no joint: a prop, a lamp, a camera.
+  // Whether a node of the file, or one below it, is a visible object other than a joint: a prop, a lamp, a
+  // camera.
   bool carries_a_thing(size_t node);
 
  private:
@@ -50,8 +54,8 @@ class SkinData {
   GltfBuffers buffers_;
   const GltfContainer& container_;
   std::optional<AccessorWriter> writer_;
-  std::vector<std::pair<std::vector<double>, size_t>> times_;  // and their accessors
-  std::vector<bool> things_;                                   // a node of the file
+  std::vector<std::pair<std::vector<double>, size_t>> times_;  // times and their accessors
+  std::vector<bool> things_;                                   // per node of the file
 };
 
 }  // namespace focal

@@ -1,4 +1,4 @@
-// A skeleton and skin weights put into the caller's own glTF document.
+// Adds a skeleton and skin weights to the caller's own glTF document.
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@ namespace {
 
 using Json = OrderedJson;
 
-constexpr int32_t max_joints = 65536;  // what 16 bits number
+constexpr int32_t max_joints = 65536;  // the range of 16 bits
 
 class SkinInserter {
  public:
@@ -68,7 +68,8 @@ Json& mark(Json& node) {
   return member_or_new(extras, "focal", Json::value_t::object);
 }
 
-// One node a joint, below one root: glTF wants a common root in the scene. A tip is a node without a part in the skin.
+// One node per joint, below one root: glTF requires a common root in the scene. A tip is a node that is not
+// in the skin.
 void SkinInserter::add_joint_nodes() {
   const auto& joints = rig_.rig->joints;
   const size_t armature = pool_.take();
@@ -99,12 +100,13 @@ void SkinInserter::add_joint_nodes() {
   }
   at(nodes()[armature], "name") = "focal_skeleton";
   at(mark(nodes()[armature]), "version") = 1;
-  // First in the scene: where names are taken twice, three.js renames the later ones.
+  // First in the scene: three.js renames the later of two nodes with one name.
   auto& shown = member_or_new(shown_scene(root_), "nodes", Json::value_t::array).get_ref<Json::array_t&>();
   shown.emplace(shown.begin(), armature);
 }
 
-// What else hangs on the joint that this one stands for (a sword, a lamp, a camera) hangs on this one, and stays where it is.
+// Moves other children of the joint that this one replaces (a sword, a lamp, a camera) to this one, without
+// changing their world transform.
 void SkinInserter::hang_over(size_t joint) {
   if (rig_.replaces.empty() || rig_.replaces[joint].node < 0) return;
   const int64_t former = rig_.replaces[joint].node;
@@ -131,7 +133,8 @@ void SkinInserter::hang_over(size_t joint) {
   children_of(nodes()[joint_node_[joint]]).emplace_back(holder);
 }
 
-// The inverse bind matrices hold the place of the mesh, which glTF ignores on a skinned node: one skin for each such place.
+// The inverse bind matrices include the mesh's transform, which glTF ignores on a skinned node: one skin per
+// transform.
 size_t SkinInserter::skin_for(const Matrix4& world_transform) {
   for (const auto& [transform, skin] : skins_)
     if (transform == world_transform) return skin;
@@ -153,8 +156,8 @@ size_t SkinInserter::place_skin() {
   return skin;
 }
 
-// Each instance gets a mesh of its own, since its weights are its own; what else shows the mesh (another scene, scenery) keeps it as it
-// was.
+// Each instance gets a mesh of its own, since its weights are its own; other users of the mesh (another
+// scene, scenery) keep the original.
 void SkinInserter::give_own_meshes() {
   std::map<int32_t, std::set<int32_t>> shown_by;  // mesh -> nodes that are rigged
   for (const GltfPrimitive& primitive : primitives_)
@@ -190,7 +193,7 @@ bool SkinInserter::is_animated(int32_t node) {
   });
 }
 
-// A new scene root that takes the mesh over from its node, where there is one.
+// A new scene root that takes over the mesh of its node, if there is one.
 size_t SkinInserter::new_carrier(const GltfPrimitive& primitive) {
   const size_t carrier = append_element(root_, "nodes");
   at(nodes()[carrier], "name") = "mesh" + std::to_string(primitive.mesh);
@@ -207,7 +210,7 @@ size_t SkinInserter::new_carrier(const GltfPrimitive& primitive) {
   return carrier;
 }
 
-// The mesh's node gets the skin when it is a root without a place of its own.
+// The mesh's node gets the skin if it is a root without a transform.
 size_t SkinInserter::attach(const GltfPrimitive& primitive, size_t skin) {
   auto carrier = static_cast<size_t>(primitive.node);
   bool may_carry = primitive.node >= 0 && !is_animated(primitive.node);
@@ -237,8 +240,8 @@ void SkinInserter::attach_all() {
       primitive.node = static_cast<int32_t>(carriers.at({primitive.mesh, primitive.node}));
 }
 
-// Skins that no node uses any more stay, since their joints may move something else, but without the optional root: it is wrong
-// in many files (Blender's older exporter), and nobody reads it now.
+// Skins that are no longer used are kept, since their joints may move something else, but without the
+// optional root: it is wrong in many files (Blender's older exporter), and nothing reads it now.
 void SkinInserter::retire_former_skins(size_t count) {
   std::vector<bool> used(count);
   for (Json& node : nodes())
@@ -269,7 +272,7 @@ void SkinInserter::add() {
   attach_all();
   for (size_t j = 0; j < joint_node_.size(); ++j) hang_over(j);
   if (skins_.empty()) free_skins_.clear();
-  for (const size_t skin : free_skins_) {  // nobody uses it, but what it names must be joints
+  for (const size_t skin : free_skins_) {  // unused, but it must still refer to joints
     new_object(root_["skins"][skin]);
     Json& list = new_list(at(root_["skins"][skin], "joints"));
     for (const size_t node : joint_node_) list.push_back(node);

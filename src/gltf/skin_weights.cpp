@@ -1,4 +1,5 @@
-// Other weights for the skins that a file has: joints and all else stay, bind matrices too where they make a shape.
+// Replaces the weights of a file's skins: joints and everything else are unchanged, bind matrices too unless
+// they are all at one position.
 #include <algorithm>
 #include <map>
 
@@ -10,7 +11,8 @@ namespace {
 
 bool has_skin(const GltfPrimitive& primitive) { return primitive.skin >= 0 && !primitive.is_scenery; }
 
-// Per joint of the rig its number in a skin, or that of the nearest joint above it that the skin has; -1: it has neither.
+// Per joint of the rig its number in a skin, or that of the nearest joint above it that the skin has; -1:
+// neither.
 std::vector<int32_t> numbers_in(const OrderedJson& skin, const std::vector<Joint>& joints) {
   std::map<int32_t, int32_t> number;
   int32_t index = 0;
@@ -23,7 +25,7 @@ std::vector<int32_t> numbers_in(const OrderedJson& skin, const std::vector<Joint
   return result;
 }
 
-// The influences of a primitive's vertices in the numbers of its skin.
+// Renumbers the influences of a primitive's vertices to the joints of its skin.
 void renumber(const GltfPrimitive& primitive, const std::vector<int32_t>& numbers, Rig& rig) {
   const size_t most = (rig.more.empty() ? 1 : 2) * max_influences;
   for (int32_t i = 0; i < primitive.vertex_count; ++i) {
@@ -41,7 +43,7 @@ void renumber(const GltfPrimitive& primitive, const std::vector<int32_t>& number
   }
 }
 
-// Joints of the result: as many as the largest of the skins has, which is what the width of their numbers follows from.
+// A rig with as many joints as the largest of the skins, which determines the integer width of joint numbers.
 Rig in_numbers_of_skins(OrderedJson& root, std::span<const GltfPrimitive> primitives, const Rig& rig) {
   Rig result = rig;
   for (const GltfPrimitive& primitive : primitives) {
@@ -53,8 +55,9 @@ Rig in_numbers_of_skins(OrderedJson& root, std::span<const GltfPrimitive> primit
   return result;
 }
 
-// Where bind matrices make no shape, only the file's own weights hold the mesh together. For others its vertices are written as they are
-// shown, and a copy of its skin is bound so; what else wears the skin keeps it.
+// Where all bind matrices are at one position, only the file's own weights hold the mesh together. For other
+// weights its vertices are written in the shown pose, with a copy of its skin bound in that pose; other users
+// of the skin keep it.
 class BindsAsShown {
  public:
   BindsAsShown(OrderedJson& root, SkinData& data) : root_(root), data_(data) {}

@@ -1,4 +1,4 @@
-// Small helpers for text out of untrusted files.
+// Small helpers for text from untrusted files.
 #include "gltf/text.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Small helpers for text out of untrusted files.
+// Small helpers for text from untrusted files.
 #pragma once
 #include <cstddef>
 #include <optional>
@@ -12,10 +12,10 @@ namespace focal {
 // Text for a message: printable ASCII, at most 200 characters.
 std::string printable(std::string_view text);
 
-// Percent escapes resolved; a % that begins none stays.
+// Resolves percent escapes; a % that starts none is kept.
 std::string percent_decoded(std::string_view uri);
 
-// Bytes of the base64 payload of a "data:...;base64,..." URI; nothing when malformed. RFC 2397, RFC 4648.
+// Bytes of the base64 payload of a "data:...;base64,..." URI; empty if malformed. RFC 2397, RFC 4648.
 std::optional<std::vector<std::byte>> data_uri_bytes(std::string_view uri);
 bool is_data_uri(std::string_view uri);
 

@@ -9,8 +9,9 @@
 #include <sstream>
 #include <string_view>
 
-// The JSON tree that tinygltf makes for itself. nlohmann's destructor takes memory, in noexcept, to flatten what it frees; where there
-// is none the process would end. So the tree has a type of its own, whose lists come from a reserve when memory is refused.
+// The JSON tree that tinygltf builds for itself. nlohmann's destructor allocates, in noexcept, to flatten
+// what it frees; without memory the process would terminate. So the tree has a type of its own, whose lists
+// use a reserve when an allocation fails.
 namespace focal_view_json {
 using json = nlohmann::basic_json<std::map, std::vector, std::string, bool, int64_t, uint64_t, double,
                                   std::allocator, nlohmann::adl_serializer, std::vector<signed char>>;
@@ -66,7 +67,7 @@ namespace {
 using nlohmann::json;
 using Names = std::initializer_list<const char*>;
 
-// Writes what the view keeps of a document.
+// Writes the parts of a document that the view keeps.
 class Filter {
  public:
   explicit Filter(const json& root) : root_(root) {}
@@ -93,7 +94,7 @@ class Filter {
   std::string text_;
 };
 
-// A whole number is one however it is written: tinygltf takes 1.0 for no index.
+// A whole number stays one in any notation: tinygltf does not accept 1.0 as an index.
 void Filter::put(const json& value) {
   constexpr double exact = 9007199254740992.0;  // 2^53
   if (value.is_number_float()) {
@@ -133,7 +134,7 @@ void Filter::put_list(const json& list, Put&& put_element) {
   text_ += ']';
 }
 
-// A stride that is no multiple of 4 tinygltf refuses: it travels as an extension.
+// tinygltf refuses a stride that is not a multiple of 4: it is passed as an extension.
 void Filter::put_view(const json& view) {
   text_ += '{';
   const bool is_odd = checked_integer(view, "byteStride") % 4 != 0;
@@ -188,27 +189,27 @@ bool names_one_of(const json& owner, const char* key, const json& list) {
   return index && index->is_number_unsigned() && index->get<uint64_t>() < list.size();
 }
 
-// Whether it moves a node; else an extension says what.
+// Whether it moves a node; else an extension defines the target.
 bool moves_node(const json& target) {
   const json* path = member(target, "path");
   return member(target, "node") && path && path->is_string();
 }
 
-// parse_gltf does not look at animations, since many files with a bad one are good otherwise.
+// parse_gltf does not check animations, since many files with a bad one are usable otherwise.
 std::string Filter::what_is_broken(const json& animation) const {
-  if (!animation.is_object()) return "is no object";
+  if (!animation.is_object()) return "is not an object";
   const json &channels = list(animation, "channels"), &samplers = list(animation, "samplers");
-  if (!channels.is_array() || !samplers.is_array()) return "has channels or samplers that are no list";
+  if (!channels.is_array() || !samplers.is_array()) return "has channels or samplers that are not an array";
   for (const json& sampler : samplers)
     for (const char* end : {"input", "output"})
       if (!sampler.is_object() || !names_one_of(sampler, end, list(root_, "accessors")))
-        return std::string("names no proper ") + end;
+        return std::string("has an invalid sampler ") + end;
   for (const json& channel : channels) {
     const json* target = channel.is_object() ? member(channel, "target") : nullptr;
-    if (!target || !target->is_object()) return "has a channel without target";
+    if (!target || !target->is_object()) return "has a channel without a target";
     if (!moves_node(*target)) continue;
-    if (!names_one_of(*target, "node", list(root_, "nodes"))) return "names no proper node";
-    if (!names_one_of(channel, "sampler", samplers)) return "names no proper sampler";
+    if (!names_one_of(*target, "node", list(root_, "nodes"))) return "refers to an invalid node";
+    if (!names_one_of(channel, "sampler", samplers)) return "refers to an invalid sampler";
   }
   return "";
 }
@@ -251,14 +252,15 @@ std::string Filter::run() {
   return text_ + "}";
 }
 
-// Lends tinygltf's JSON memory for its end: a list that is built and one that is flattened grow by doubling, to all values at most.
+// Reserves memory for the end of tinygltf's JSON: a list that is built and one that is flattened double in
+// size, to at most all values.
 class LentReserve {
  public:
   explicit LentReserve(std::string_view text) {
     const auto begins = [](char c) { return c == ',' || c == '{' || c == '['; };
     const auto values = static_cast<size_t>(std::count_if(text.begin(), text.end(), begins)) + 64;
     const size_t size = 2 * 4 * sizeof(focal_view_json::json) * values;
-    bytes_.reset(new std::byte[size]);  // not touched as a rule
+    bytes_.reset(new std::byte[size]);  // normally not used
     focal_view_json::reserve = {bytes_.get(), bytes_.get(), bytes_.get() + size};
   }
   LentReserve(const LentReserve&) = delete;

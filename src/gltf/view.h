@@ -1,8 +1,9 @@
-// A checked glTF document as tinygltf's typed model: scene, nodes, meshes, skins, animations, accessors, buffer views.
+// A checked glTF document as tinygltf's typed model: scene, nodes, meshes, skins, animations, accessors,
+// buffer views.
 //
-// tinygltf is given the document that parse_gltf has checked, without buffers, images, materials, extras and extensions that nobody
-// reads here, so that it sees nothing that it may refuse or that makes it copy data. Its namespace is another one inside focal: a host may
-// use tinygltf, of another version, too.
+// tinygltf gets the document that parse_gltf has checked, without buffers, images, materials, extras and
+// extensions that are not used here, so that it finds nothing to refuse and does not copy data. Its namespace
+// is renamed inside focal, so that a host can use another version of tinygltf.
 #pragma once
 #include <cstdint>
 #include <nlohmann/json.hpp>
@@ -32,15 +33,17 @@ struct BufferSource {
 struct GltfView {
   tiny::Model model;
   std::vector<BufferSource> buffers;
-  std::vector<std::string>
-      broken_animations;                 // one a file's animation: what is malformed in it; empty: nothing
-  std::vector<size_t> pointer_channels;  // likewise: channels that an extension moves, which the model lacks
+  // One per animation of the file: a description if it is malformed, else empty.
+  std::vector<std::string> broken_animations;
+  // Likewise: channels that an extension moves, which are not in the model.
+  std::vector<size_t> pointer_channels;
 };
 
-// Takes the buffers' URIs, which may be long, out of the document. Throws invalid_file (what tinygltf refuses).
+// Moves the buffers' URIs, which may be long, out of the document. Throws invalid_file (what tinygltf
+// refuses).
 GltfView view_of(nlohmann::json& checked_root);
 
-// Of an accessor without data; tinygltf wants that of indices to have a view.
+// Whether an accessor has data; tinygltf requires those of indices to have a view.
 bool has_view(const tiny::Model& model, const tiny::Accessor& accessor);
 
 // A member of an extension that the view keeps, or null.

@@ -1,4 +1,4 @@
-// VRM 1.0 out: the humanoid map and the meta data of an avatar.
+// Writes VRM 1.0: the humanoid bones and the meta data of an avatar.
 #include <algorithm>
 
 #include "base/error.h"
@@ -21,10 +21,11 @@ void check_bones(std::span<const std::string> roles) {
       missing += (missing.empty() ? "" : ", ") + std::string(bone);
   if (!missing.empty())
     throw Error(Status::invalid_argument, "the skeleton has no joint for " + missing + ", which VRM requires",
-                "use a model of humanoids; joints are known by their names and where they hang");
+                "use a model of humanoids; joints are recognised by their names and the hierarchy");
 }
 
-// The nodes of the joints: as read from this file, or those of the skin that has joints of these names in this order.
+// The nodes of the joints: as read from this file, or those of the skin that has joints of these names in
+// this order.
 std::vector<size_t> nodes_of(OrderedJson& root, const std::vector<Joint>& joints) {
   std::vector<size_t> nodes;
   if (joints[0].node >= 0) {
@@ -55,7 +56,7 @@ bool is_filled_text(const OrderedJson& value) {
 // Fills in what VRM requires.
 void complete_meta(OrderedJson& meta) {
   if (!meta.is_object())
-    throw Error(Status::invalid_file, "the meta data is no JSON object",
+    throw Error(Status::invalid_file, "the meta data is not a JSON object",
                 R"(write {"name": "...", "authors": ["..."]})");
   const OrderedJson* name = find(meta, "name");
   const bool has_name = name && is_filled_text(*name);
@@ -80,7 +81,8 @@ void declare(OrderedJson& root) {
 void GltfDocument::add_vrm(const std::vector<Joint>& joints, std::span<const std::string> roles,
                            std::string_view meta) {
   if (!is_binary())
-    throw Error(Status::invalid_argument, "the mesh came as .gltf, and VRM is a .glb", "export it as .glb");
+    throw Error(Status::invalid_argument, "the mesh is from a .gltf file, but VRM requires a .glb",
+                "export it as .glb");
   check_bones(roles);
   OrderedJsonDocument given(std::as_bytes(std::span(meta)), {});
   complete_meta(given.root());

@@ -1,4 +1,4 @@
-// A small GLB from scratch.
+// Creates a small GLB.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -29,8 +29,8 @@ std::vector<uint8_t> colour_bytes(const RowMatrixf& colours) {
   bytes.reserve(static_cast<size_t>(colours.rows()) * 4);
   for (Eigen::Index vertex = 0; vertex < colours.rows(); ++vertex) {
     for (int k = 0; k < 3; ++k) {
-      const float value =
-          colours(vertex, k) > 0 ? std::min(colours(vertex, k), 1.0f) : 0.0f;  // NaN becomes 0
+      // NaN becomes 0.
+      const float value = colours(vertex, k) > 0 ? std::min(colours(vertex, k), 1.0f) : 0.0f;
       bytes.push_back(static_cast<uint8_t>(std::lround(value * 255)));
     }
     bytes.push_back(255);
@@ -44,9 +44,10 @@ void check(const TriangleMesh& mesh, const RowMatrixf& positions, const RowMatri
   if (!positions.allFinite())
     throw Error(Status::invalid_mesh, "a position is not finite in single precision", "scale the mesh");
   if (mesh.triangles.minCoeff() < 0 || mesh.triangles.maxCoeff() >= mesh.vertex_count())
-    throw Error(Status::invalid_mesh, "a triangle refers to a vertex that is not there", "check the indices");
+    throw Error(Status::invalid_mesh, "a triangle refers to a vertex that does not exist",
+                "check the indices");
   if (colours.size() != 0 && (colours.rows() != mesh.vertex_count() || colours.cols() != 3))
-    throw Error(Status::invalid_argument, "the colours are not one row of three a vertex",
+    throw Error(Status::invalid_argument, "the colours are not one row of three per vertex",
                 "pass n x 3 colours");
 }
 

@@ -16,14 +16,14 @@ using Features = std::array<float, feature_count>;
 
 double logistic(double x) { return 1 / (1 + std::exp(-x)); }
 
-// Ridge-regularised logistic regression by Newton's method. Each samples placement also counts as weakly wrong and weakly
-// right (Platt 1999), so that a perfect training set does not lead to certainty.
+// Ridge-regularised logistic regression by Newton's method. Each sample also counts slightly as its opposite
+// (Platt 1999), so that a training set without errors does not lead to certainty.
 void fit_logistic(const std::vector<Features>& x, const std::vector<double>& target, float* weight) {
   constexpr double ridge = 1.0;
   Vector w = Vector::Zero(feature_count + 1);
   for (int step = 0; step < 50; ++step) {
     Matrix hessian = ridge * Matrix::Identity(feature_count + 1, feature_count + 1);
-    hessian(feature_count, feature_count) = 1e-3;  // the bias is free
+    hessian(feature_count, feature_count) = 1e-3;  // the bias is not regularised
     Vector gradient = -(hessian * w);
     for (size_t i = 0; i < x.size(); ++i) {
       Vector row(feature_count + 1);
@@ -45,11 +45,12 @@ float log_level(const Calibration& calibration, int32_t landmark, const Placemen
   return typical > 0 ? std::log(std::clamp(features.vote_level / typical, 1e-3f, 1e3f)) : 0;
 }
 
-// The features for the mesh as a whole: the mean over its landmarks of how far they fit, each within bounds so that one
-// lost landmark does not decide, and how alike the maps find it.
+// Features of the mesh as a whole: the mean over its landmarks, each clamped so that one lost landmark does
+// not decide, and the similarity found by the maps.
 double mean_of(const Calibration& calibration, const std::vector<int32_t>& landmark,
                const std::vector<PlacementFeatures>& features, float map_residual) {
-  constexpr double residual_weight = 20;  // of a tenth more: two units, as much as a clear drop of all votes
+  // A tenth more residual: two units, as much as a clear drop of all votes.
+  constexpr double residual_weight = 20;
   double sum = 0;
   for (size_t i = 0; i < features.size(); ++i)
     sum += std::clamp(log_level(calibration, landmark[i], features[i]) - features[i].residual, -6.0f, 6.0f);
@@ -106,7 +107,7 @@ double mesh_mean(const Calibration& calibration, const std::vector<CalibrationSa
   return mean_of(calibration, landmark, features, samples[mesh.begin].map_residual);
 }
 
-// Typical votes, errors and residual.
+// Learns typical votes, errors and residual.
 void learn_typical(const std::vector<CalibrationSample>& samples, Calibration& result) {
   std::vector<int32_t> count(result.typical_vote.size(), 0);
   double error[2] = {}, number[2] = {}, residual = 0, whole = 0;
@@ -126,7 +127,8 @@ void learn_typical(const std::vector<CalibrationSample>& samples, Calibration& r
   result.typical_residual = static_cast<float>(residual / std::max(whole, 1.0));
 }
 
-// Category fit: 0.9 at the mean of the whole training meshes' features, 0.5 three deviations below.
+// Learns the category fit: 0.9 at the mean of the features of uncorrupted training meshes, 0.5 three
+// deviations below.
 void learn_fit(const std::vector<CalibrationSample>& samples, const std::vector<MeshRange>& meshes,
                Calibration& result) {
   double mean = 0, square = 0;
@@ -140,7 +142,7 @@ void learn_fit(const std::vector<CalibrationSample>& samples, const std::vector<
   result.fit_scale = static_cast<float>(std::log(9.0) / (3 * spread));
 }
 
-// Probabilities that weakly count each example as its opposite (Platt 1999).
+// Probabilities in which each example counts slightly as its opposite (Platt 1999).
 std::vector<double> softened(const std::vector<char>& is_true) {
   const auto yes = static_cast<double>(std::count(is_true.begin(), is_true.end(), 1));
   const double no = static_cast<double>(is_true.size()) - yes;
@@ -149,8 +151,8 @@ std::vector<double> softened(const std::vector<char>& is_true) {
   return result;
 }
 
-// The score from which on calling a landmark absent has the best F1 on the samples: those that are absent are
-// few, so that even clear ones stay below a probability of a half. Infinity when none is absent.
+// The threshold for absence with the best F1 on the samples: absent samples are few, so that even clear ones
+// stay below a probability of a half. Infinity when no sample is absent.
 double absence_threshold(const std::vector<double>& score, const std::vector<char>& is_absent) {
   std::vector<size_t> order(score.size());
   std::iota(order.begin(), order.end(), 0);
@@ -192,7 +194,8 @@ Calibration calibrate(const std::vector<CalibrationSample>& samples, int32_t lan
   std::vector<double> score;
   for (const Features& f : x) score.push_back(weighted(result.absent_weight, f));
   if (const double threshold = absence_threshold(score, is_absent); std::isfinite(threshold))
-    result.absent_weight[feature_count] -= static_cast<float>(threshold);  // so that it lies at a half
+    // So that the threshold is at a half.
+    result.absent_weight[feature_count] -= static_cast<float>(threshold);
   return result;
 }
 
@@ -202,8 +205,9 @@ ConfidenceEstimate estimate_confidence(const Calibration& calibration,
   std::iota(all.begin(), all.end(), 0);
   const double mesh = mean_of(calibration, all, features, map_residual);
   const double odds = fit_odds(calibration, mesh);
-  // Training shapes are all of the category: what a foreign one looks like was never seen, so it only shuts the gate.
-  const double gate = logistic(odds + 6);  // far below what spoiled meshes of the category come to
+  // All training shapes belong to the category; foreign ones were never seen, so the fit can only lower the
+  // confidence.
+  const double gate = logistic(odds + 6);  // far below the odds of corrupted meshes of the category
   ConfidenceEstimate result{logistic(odds), {}, {}};
   for (const int32_t l : all) {
     const Features x = features_of(calibration, l, features[l], mesh, map_residual > 0);

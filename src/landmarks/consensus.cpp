@@ -12,17 +12,19 @@
 namespace focal {
 namespace {
 
-// All chosen by cross-validation on training splits of nine categories; the errors are flat round them.
+// All chosen by cross-validation on training splits of nine categories; the errors change little around them.
 constexpr TransferParams thorough{.map = {.first = 20, .last = 120, .step = 8}, .most_alike = 0};
 constexpr TransferParams quick{.map = {.first = 20, .last = 120, .step = 20}, .spread = 600, .most_alike = 3};
-constexpr double alike_falloff = 30;  // a map counts exp(-falloff (residual - least residual))
-// Maps that fit this badly are as often wrong as right, which few landmarks or an unlike body cause; worse ones have no say.
+constexpr double alike_falloff = 30;  // weight of a map: exp(-falloff (residual - least residual))
+// Maps with this residual are wrong half of the time, because of few landmarks or a very different body;
+// worse ones do not count.
 constexpr double doubtful_residual = 0.69, residual_width = 0.015;
-constexpr double outlier_distance = 0.03;  // of sqrt(area): marks farther from the consensus count less
-constexpr int rounds = 8;                  // of reweighting
+// In sqrt(area): transferred landmarks farther from the consensus count less.
+constexpr double outlier_distance = 0.03;
+constexpr int rounds = 8;  // of reweighting
 constexpr int median_rounds = 10;
-// Of sqrt(area): maps that carry known landmarks so far astray count less. Not tuned: 0.05 to 0.2 make no difference on ants, nor does
-// leaving it out there.
+// In sqrt(area): maps that transfer known landmarks with a larger error count less. Not tuned: 0.05 to 0.2
+// make no difference on ants, nor does leaving it out there.
 constexpr double wrong_map = 0.1;
 
 struct Opinion {
@@ -33,11 +35,11 @@ struct Opinion {
 
 struct Consensus {
   Vector3 position;
-  double spread;   // root mean squared distance of the opinions, outliers counting less
-  Vector3 normal;  // of the side that they are on
+  double spread;   // root mean squared distance of the opinions, outliers downweighted
+  Vector3 normal;  // of the side of the surface that they are on
 };
 
-// Opinions weighted by their distance from the place so far.
+// Mean of the opinions, weighted by their distance from the current place.
 template <class WeightAt>
 Consensus weighted_mean(const std::vector<Opinion>& opinions, const Vector3& place,
                         const WeightAt& weight_at) {
@@ -52,8 +54,8 @@ Consensus weighted_mean(const std::vector<Opinion>& opinions, const Vector3& pla
   return result;
 }
 
-// A robust mean: Cauchy weights round the place found so far, from the median on (E. Weiszfeld, 1937). No opinion is ever
-// picked, so the place moves no farther than they do.
+// A robust mean: Cauchy weights around the current place, starting at the median (E. Weiszfeld, 1937). It
+// never selects one opinion, so the place is continuous in the opinions.
 Consensus consensus_of(const std::vector<Opinion>& opinions) {
   Consensus result = weighted_mean(opinions, opinions[0].position, [](double) { return 1.0; });
   for (int round = 0; round < median_rounds; ++round)
@@ -72,7 +74,7 @@ Vector3 normal_at(const TriangleMesh& surface, const MatrixX3& normals, const Su
   return sum;
 }
 
-// How much the map of each training shape counts.
+// Weight of the map of each training shape.
 std::vector<double> weights_of(const std::vector<TransferredLandmarks>& transferred) {
   float least = std::numeric_limits<float>::infinity();
   for (const auto& shape : transferred) least = std::min(least, shape.residual);
@@ -86,7 +88,8 @@ double trust_in(const TransferredLandmarks& transferred) {
   return 1 / (1 + std::exp((transferred.residual - doubtful_residual) / residual_width));
 }
 
-// How far from a known place a map carries its landmark, squared; 0 for a mark that the shape lacks.
+// Squared distance from a known place to where a map transfers its landmark; 0 for a landmark that the shape
+// lacks.
 double squared_error(const SurfacePoint& place, const std::vector<TransferredPlace>& transferred,
                      const TriangleMesh& surface) {
   Vector3 sum = Vector3::Zero();
@@ -95,7 +98,7 @@ double squared_error(const SurfacePoint& place, const std::vector<TransferredPla
   return total > 0 ? (position_of(surface, place) - sum / total).squaredNorm() : 0;
 }
 
-// Maps that carry known landmarks astray count less.
+// Reduces the weight of maps that transfer known landmarks wrongly.
 void trust_known(const Placement& placement, const TriangleMesh& surface,
                  const std::vector<TransferredLandmarks>& transferred, std::vector<double>& weights) {
   for (size_t s = 0; s < transferred.size(); ++s) {
@@ -107,8 +110,8 @@ void trust_known(const Placement& placement, const TriangleMesh& surface,
   }
 }
 
-// The landmark's own place, as one more shape of mean weight, and its marks on the training shapes. own_share: of that
-// weight, which counts.
+// The landmark's own place, as one more shape of mean weight, and its transferred places. own_share: factor
+// on the own weight.
 std::vector<Opinion> opinions_on(int32_t landmark, const SurfacePoint& own, double own_share,
                                  const TriangleMesh& surface, const MatrixX3& normals,
                                  const std::vector<TransferredLandmarks>& transferred,
@@ -124,8 +127,8 @@ std::vector<Opinion> opinions_on(int32_t landmark, const SurfacePoint& own, doub
   return opinions;
 }
 
-// Maps of the training shapes that start from the landmarks that were not left out; nothing when those are
-// too few to start from.
+// Maps of the training shapes, started from the landmarks that were not left out; empty when those are too
+// few.
 std::vector<ShapeMap> maps_from(const LandmarkModel& model, const SurfaceAnalysis& analysis,
                                 const Placement& placement, const TransferParams& params,
                                 const Execution& execution) {
@@ -183,7 +186,7 @@ void join_transferred_landmarks(const LandmarkModel& model, const SurfaceAnalysi
     const auto opinions = opinions_on(placed[p], placement.point[placed[p]], features.left_out ? 1e-3 : 1,
                                       surface, normals, transferred, weights);
     const Consensus consensus = consensus_of(opinions);
-    if (best) {  // what a few shapes say differs from what confidence was learned on
+    if (best) {  // features from a few shapes differ from those that confidence was trained on
       features.spread = static_cast<float>(consensus.spread);
       features.gap = static_cast<float>((consensus.position - opinions[0].position).norm());
     }

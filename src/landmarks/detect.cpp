@@ -35,14 +35,15 @@ DetectedLandmark landmark_at(const LandmarkModel& model, const Proxy& proxy, con
                              const ConfidenceEstimate& estimate, int32_t l, const SurfacePoint& place,
                              const SurfacePoint& rival_place, const DetectParams& params) {
   DetectedLandmark landmark;
-  if (placement.vertex[l] < 0) return landmark;             // no vote at all: absent
-  const bool paper = model.params.preset == Preset::paper;  // the paper gives no confidence: its vote stands
+  if (placement.vertex[l] < 0) return landmark;             // no votes: absent
+  const bool paper = model.params.preset == Preset::paper;  // the paper has no confidence: use the vote
   const double confidence = paper ? 1 : estimate.confidence[l];
   static_cast<DetectedPoint&>(landmark) = point_at(*proxy.full, place, confidence);
   landmark.status = status_of(confidence, paper ? 0 : estimate.absent[l], params);
   landmark.expected_error = proxy.scale() * expected_error_of(model.calibration, confidence);
   if (placement.runner_up[l] >= 0) {
-    const float runner_up = placement.features[l].runner_up;  // shares what the winner leaves, by its votes
+    // Gets a share of the remaining probability, by its votes.
+    const float runner_up = placement.features[l].runner_up;
     landmark.runner_up =
         point_at(*proxy.full, rival_place, (1 - confidence) * std::min(1.0f, runner_up / (1 + runner_up)));
   }
@@ -63,8 +64,9 @@ std::vector<DetectedLandmark> landmarks_at(const LandmarkModel& model, const Sur
   std::vector<int32_t> runners_up;
   for (const int32_t runner_up : placement.runner_up) runners_up.push_back(std::max(runner_up, 0));
   std::vector<SurfacePoint> places = placement.point;
+  // Triangle 0 is a placeholder where a landmark has no place.
   for (size_t l = 0; l < L; ++l)
-    if (placement.vertex[l] < 0) places[l].triangle = 0;  // stands for none
+    if (placement.vertex[l] < 0) places[l].triangle = 0;
   const auto runner_up_places = points_at(analysis.surface(), runners_up);
   places.insert(places.end(), runner_up_places.begin(), runner_up_places.end());
   const auto full = to_full(analysis.proxy, places, execution);
@@ -102,7 +104,8 @@ bool suits(const AnalysisParams& made, const AnalysisParams& wanted) {
          made.distance == wanted.distance;
 }
 
-// A correction takes no landmark away: one that is absent with the fixed ones, and not without them, is uncertain.
+// A correction does not remove landmarks: one that is absent only with the fixed ones is reported as
+// uncertain.
 void keep_present(const std::shared_ptr<const LandmarkModel>& model, const SurfaceAnalysis& analysis,
                   const Placement& placement, const DetectParams& params, const Execution& execution,
                   std::vector<DetectedLandmark>& landmarks) {
@@ -121,8 +124,8 @@ Detection detect_afresh(const std::shared_ptr<const LandmarkModel>& model,
                         const Execution& execution) {
   execution.begin_stage("analysis", 0, 0.4);
   auto analysis = std::make_shared<SurfaceAnalysis>(analyse_for(model->params, mesh, params, execution));
-  if (model->params.oriented && !analysis->engine->is_device())
-    keep_distances(*analysis, execution);  // voted with once a heading
+  // They are used once per heading.
+  if (model->params.oriented && !analysis->engine->is_device()) keep_distances(*analysis, execution);
   Detection result = detect(model, *analysis, params, execution);
   result.seconds.proxy = analysis->proxy_seconds;
   result.seconds.spectrum = analysis->spectrum_seconds;
@@ -140,7 +143,7 @@ Detection detect_afresh(const std::shared_ptr<const LandmarkModel>& model,
 void check_suits(const SurfaceAnalysis& analysis, const LandmarkModel& model) {
   if (!suits(analysis.params, analysis_params_of(model.params)))
     throw Error(Status::invalid_argument, "the analysis was made with other parameters than this model's",
-                "analyse the mesh once more, by the parameters of this model");
+                "analyse the mesh again with the parameters of this model");
 }
 
 std::vector<int32_t> placed_landmarks(const Detection& detection) {
@@ -222,7 +225,7 @@ Detection detect(std::shared_ptr<const LandmarkModel> model, const SurfaceAnalys
   result.category_fit = estimate.category_fit;
   if (const char* warning = analysis.metric->warning()) result.warnings.emplace_back(warning);
   if (!paper && !analysis.proxy.full->is_oriented)
-    result.warnings.push_back("left and right were told apart by distances alone, not by chirality");
+    result.warnings.push_back("left and right were distinguished by distances alone, not by chirality");
   if (const int32_t holes = analysis.proxy.filled_holes)
     result.warnings.push_back(std::to_string(holes) + (holes == 1 ? " hole was" : " holes were") +
                               " closed for the analysis");

@@ -6,14 +6,15 @@
 namespace focal {
 namespace {
 
-// Weights of the nearest point of a triangle, from the products of its sides from corner a and of the way to p.
+// Barycentric weights of the nearest point of a triangle, from the dot products of its sides from corner a
+// and of the vector to p.
 Vector3 closest_weights(double bb, double bc, double cc, double bp, double cp) {
   const double det = bb * cc - bc * bc;
   if (det > 0) {
     const double b = (cc * bp - bc * cp) / det, c = (bb * cp - bc * bp) / det;
     if (b >= 0 && c >= 0 && b + c <= 1) return {1 - b - c, b, c};
   }
-  // Outside: the nearest of the three sides' nearest points.
+  // Outside: the nearest of the nearest points of the three sides.
   const auto clamped = [](double along, double length) {
     return length > 0 ? std::clamp(along / length, 0.0, 1.0) : 0.0;
   };

@@ -1,4 +1,4 @@
-// A surface whose vertices lie at places of many dimensions, such as a functional map gives them: the point of it nearest to one.
+// A surface embedded in many dimensions, for example by a functional map, with nearest-point queries.
 #pragma once
 #include <functional>
 #include <vector>
@@ -7,12 +7,12 @@
 
 namespace focal {
 
-// The triangles that use each vertex.
+// For each vertex the triangles that use it.
 std::vector<std::vector<int32_t>> incident_triangles(const TriangleMesh& mesh);
 
 class EmbeddedSurface {
  public:
-  // place(v): of vertex v. Both are kept by reference.
+  // place(v): coordinates of vertex v. Both arguments are kept by reference.
   EmbeddedSurface(const TriangleMesh& mesh, std::function<Eigen::VectorXf(int32_t)> place)
       : mesh_(mesh), place_(std::move(place)) {}
 
@@ -21,7 +21,7 @@ class EmbeddedSurface {
     float squared;  // distance
   };
   Nearest nearest(int32_t triangle, const Eigen::VectorXf& place) const;
-  // Among the given triangles, at least one.
+  // Nearest point on the given triangles, at least one.
   SurfacePoint nearest(const std::vector<int32_t>& triangles, const Eigen::VectorXf& place) const;
 
  private:

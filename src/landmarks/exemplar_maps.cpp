@@ -12,10 +12,10 @@
 namespace focal {
 namespace {
 
-constexpr int32_t remembered_points = 800;  // of a training shape; 500 measured a tenth worse
+constexpr int32_t remembered_points = 800;  // per training shape; with 500 the error grows by a tenth
 constexpr int32_t vertices_a_point = 3;     // fewer points on small proxies
-constexpr int rings = 3;                    // of triangles round a vertex near a mark's place
-constexpr double noise_share = 0.5;         // of a map's dimensions that err on their own
+constexpr int rings = 3;                    // of triangles around a vertex near a landmark's place
+constexpr double noise_share = 0.5;         // of a map's dimensions with independent errors
 
 MatrixX3 rows_of(const MatrixX3& positions, const std::vector<int32_t>& rows) {
   MatrixX3 result(rows.size(), 3);
@@ -33,7 +33,7 @@ Eigen::VectorXf areas_round(const SurfaceAnalysis& analysis, const std::vector<i
   return area;
 }
 
-// Positions and influences of the points, on the surface that the proxy stands for.
+// Stores positions and influences of the points, on the surface that the proxy represents.
 void remember_rig(const SurfaceAnalysis& analysis, const std::vector<int32_t>& spread, const ShapeRig& rig,
                   Exemplar& shape) {
   const TriangleMesh& full = analysis.proxy.full->surface;
@@ -52,7 +52,8 @@ void remember_rig(const SurfaceAnalysis& analysis, const std::vector<int32_t>& s
   }
 }
 
-// Where each remembered point starts: between the spread vertices with the most similar distances to the landmarks of both.
+// Initial image of each point: between the spread vertices with the most similar distances to the landmarks
+// of both.
 PlacesBetween first_images(const Exemplar& shape, float reach, const std::vector<int32_t>& landmark,
                            const RowMatrixf& fields, const SpectralTargets& targets) {
   const std::vector<int32_t>& spread = targets.spread;
@@ -67,7 +68,8 @@ PlacesBetween first_images(const Exemplar& shape, float reach, const std::vector
   PlacesBetween images = nearest_between(there, here, rows_of(targets.positions, spread));
   for (int32_t& i : images.vertex) i = spread[i];
   images.vertex.resize(shape.samples.Phi.rows() * PlacesBetween::vertices,
-                       0);  // the marks follow, without weight
+                       // The landmarks follow, without weight.
+                       0);
   images.weight.resize(images.vertex.size(), 0);
   return images;
 }
@@ -91,8 +93,8 @@ std::vector<int32_t> surroundings(const TriangleMesh& mesh,
   return triangles;
 }
 
-// The mean of the nearest points of some triangles, each as likely as the map's noise makes it. The nearest of all would jump
-// from triangle to triangle: off the surface, many are about as near.
+// The mean of the nearest points of some triangles, weighted by their likelihood under the map's noise. The
+// single nearest point would jump from triangle to triangle: off the surface, many are about equally near.
 SurfaceQuery mean_of_nearest(const TriangleMesh& mesh, const MatrixX3& normals,
                              const EmbeddedSurface& embedded, const std::vector<int32_t>& triangles,
                              const Eigen::VectorXf& place) {
@@ -150,14 +152,14 @@ FunctionalMap refined(const Exemplar& shape, const SurfaceAnalysis& analysis, co
   return analysis.engine->zoom_out(shape.samples, targets, std::move(images), params);
 }
 
-// A shape and where its points start from on the new surface.
+// A shape and the initial images of its points on the new surface.
 struct Start {
   int32_t shape = 0;
   PlacesBetween images;
   float residual = 0;  // of the coarse map
 };
 
-// The few whose coarse maps fit best; the maps go on from there.
+// The few starts whose coarse maps fit best; only these maps are continued.
 std::vector<Start> most_alike(std::vector<Start> starts, const std::vector<Exemplar>& exemplars,
                               const SurfaceAnalysis& analysis, const SpectralTargets& targets,
                               const TransferParams& params, const Execution& execution) {
@@ -177,7 +179,8 @@ std::vector<Start> most_alike(std::vector<Start> starts, const std::vector<Exemp
 }
 
 SpectralTargets spectral_targets(const SurfaceAnalysis& analysis, int32_t spread) {
-  // The samples are drawn by number: unlike farthest points, of which many are ties, they stay when the mesh is moved.
+  // Samples are drawn by number: unlike farthest points, which have many ties, they do not change when the
+  // mesh is transformed.
   const auto count = std::min<size_t>(analysis.samples.size(), spread);
   return {analysis.eigenfunctions,
           {analysis.samples.begin(), analysis.samples.begin() + count},

@@ -1,22 +1,23 @@
-// What the forest of preset `default` knows of a sample: its signature, how the surface bulges there and, where the training shapes
-// agree on an orientation, where it lies and faces in the body's own frame.
+// Features of a sample for the forest of preset `default`: its signature, the bulge of the surface and, where
+// the training shapes agree on an orientation, position and normal in the body's own frame.
 #pragma once
 #include "analysis/surface_analysis.h"
 #include "model/feature_layout.h"
 
 namespace focal {
 
-// One row for each of the first `count` samples. frame: turns directions of the surface's coordinates into the body's (+Y up, +Z
-// front); it matters only where params.oriented.
+// One row for each of the first `count` samples. frame: rotates directions from the surface's coordinates
+// into the body's (+Y up, +Z front); used only with params.oriented.
 RowMatrixf features_of(const SurfaceAnalysis& analysis, int32_t count, const TrainParams& params,
                        const Matrix3& frame);
 
-// The part of it that no motion changes, for the first `count` samples; and with it what no turn about the y axis changes of
-// placed_features.
+// The features that no motion changes, for the first `count` samples; and the same together with the parts of
+// placed_features that no rotation about the y axis changes.
 RowMatrixf invariant_features(const SurfaceAnalysis& analysis, int32_t count);
 RowMatrixf upright_features(const SurfaceAnalysis& analysis, const RowMatrixf& placed);
 
-// Per sample its position from the centre of the surface and its normal, in surface coordinates: count x 6.
+// Per sample its position relative to the centre of the surface and its normal, in surface coordinates: count
+// x 6.
 RowMatrixf placed_features(const SurfaceAnalysis& analysis, int32_t count);
 
 }  // namespace focal

@@ -9,13 +9,13 @@
 namespace focal {
 namespace {
 
-constexpr int32_t looked_at = 800;      // samples
-constexpr double turned_penalty = 11;   // of facing another way than +Z, in energies; files that do are few
-constexpr double tilted_penalty = 30;   // likewise of not standing upright
-constexpr double facing_weight = 160;   // of the correlation of how it faces, against energies
-constexpr double clearly_tilted = 0.6;  // by which the correlation with another up axis must be larger
+constexpr int32_t looked_at = 800;      // samples used
+constexpr double turned_penalty = 11;   // for not facing +Z, in units of energy; few files do not
+constexpr double tilted_penalty = 30;   // for not standing upright, likewise
+constexpr double facing_weight = 160;   // of the correlation of the normals, relative to energies
+constexpr double clearly_tilted = 0.6;  // required advantage in correlation of another up axis
 
-// For each row of features where the point is expected and how it faces, in the body's frame: the mean over the leaves.
+// For each row of features the expected position and normal in the body's frame: the mean over the leaves.
 RowMatrixf expected_places(const RegressionForest& forest, const RowMatrixf& targets,
                            const RowMatrixf& features) {
   RowMatrixf result = RowMatrixf::Zero(features.rows(), targets.cols());
@@ -30,8 +30,8 @@ RowMatrixf expected_places(const RegressionForest& forest, const RowMatrixf& tar
   return result;
 }
 
-// Sum over samples of expected times seen, an entry a pair of axes, normals and places alike; within -1..1. known, used: 1 for the
-// axes that count of either.
+// Sum over samples of expected x observed, one entry per pair of axes, positions and normals together; within
+// -1..1. known, used: 1 for the axes that count.
 Matrix3 correlation(const RowMatrixf& expected, const RowMatrixf& seen, const Eigen::RowVector3f& known,
                     const Eigen::RowVector3f& used) {
   Matrix3 sum = Matrix3::Zero();
@@ -50,7 +50,7 @@ RowMatrixf turned(RowMatrixf placed, const Matrix3& by) {
   return placed;
 }
 
-// The rotation that brings what is seen nearest to what is expected.
+// The rotation that best aligns the observed with the expected vectors.
 Matrix3 best_turn(const Matrix3& correlation) {
   const Eigen::JacobiSVD<Matrix3> svd(correlation, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
@@ -61,7 +61,7 @@ double fit(const Matrix3& correlation, const Matrix3& turn) {
   return (turn.transpose() * correlation).trace();
 }
 
-// Of all turns about the y axis.
+// The best fit over all rotations about the y axis.
 double best_upright_fit(const Matrix3& correlation) {
   return correlation(1, 1) +
          std::hypot(correlation(0, 0) + correlation(2, 2), correlation(0, 2) - correlation(2, 0));
@@ -69,11 +69,11 @@ double best_upright_fit(const Matrix3& correlation) {
 
 Matrix3 about_up(double angle) { return Eigen::AngleAxisd(angle, Vector3::UnitY()).toRotationMatrix(); }
 
-// How a body that stands upright in `placed` may face: as it is, backwards, and where else it seems to.
+// Candidate headings of a body that is upright in `placed`: as it is, reversed, and the estimated ones.
 std::vector<Heading> headings_about_up(const LandmarkModel& model, const SurfaceAnalysis& analysis,
                                        const RowMatrixf& placed, double prior) {
   const RowMatrixf features = upright_features(analysis, placed);
-  // Left and right look alike to the features: of what is seen across the up axis only front and back are known.
+  // The features do not distinguish left from right: across the up axis they only predict front and back.
   const Matrix3 seen = correlation(expected_places(model.facing, model.facing_targets, features), placed,
                                    {0, 0, 1}, {1, 0, 1});
   const double best = std::atan2(seen(0, 2) - seen(2, 0), seen(0, 0) + seen(2, 2));
@@ -137,7 +137,7 @@ void learn_orientation(LandmarkModel& model, const std::vector<const SurfaceAnal
                             .components_per_split = 8,
                             .seed = model.params.seed + 1};
   model.rising = grow_forest(bin_descriptors(invariant, execution), model.facing_targets, forest, execution);
-  RowMatrixf forwards = model.facing_targets;  // front and back are all that it has to learn
+  RowMatrixf forwards = model.facing_targets;  // only front and back are learned
   for (const Eigen::Index other : {0, 1, 3, 4}) forwards.col(other).setZero();
   model.facing = grow_forest(bin_descriptors(upright, execution), forwards, forest, execution);
 }

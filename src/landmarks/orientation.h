@@ -1,4 +1,4 @@
-// Which way a body may stand in its file's coordinates.
+// Possible orientations of a body in its file's coordinates.
 #pragma once
 #include <vector>
 
@@ -9,17 +9,17 @@ namespace focal {
 
 struct Heading {
   Matrix3 frame = Matrix3::Identity();  // see features_of
-  double penalty = 0;                   // energy that it costs before anything is seen of the body
+  double penalty = 0;                   // energy added before anything is known about the body
 };
 
-// As the training shapes stand first, then facing backwards, which looks most like it, then where two forests expect the body to face
-// and its up axis to lie: one knows only what no motion changes of a point, the other also its height, and both where such points
-// lie and face on the training shapes. A model without an orientation, and one for meshes that stand in a
-// known way, has one heading.
+// Headings in this order: as the training shapes stand; facing backwards, which looks most similar to it;
+// then the headings and up axes that two forests estimate. One forest knows only features that no motion
+// changes, the other also the height; both predict position and normal of such points on the training shapes.
+// A model without an orientation, and one for meshes of a known orientation, has one heading.
 std::vector<Heading> headings_to_try(const LandmarkModel& model, const SurfaceAnalysis& analysis,
                                      DetectParams::Orientation orientation);
 
-// Learns the two forests from a few samples of each mesh.
+// Trains the two forests on a few samples of each mesh.
 void learn_orientation(LandmarkModel& model, const std::vector<const SurfaceAnalysis*>& meshes,
                        const Execution& execution);
 

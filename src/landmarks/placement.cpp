@@ -18,24 +18,26 @@
 namespace focal {
 namespace {
 
-constexpr double peak_separation = 0.08;  // of sqrt(area), as measured in the reference
+constexpr double peak_separation = 0.08;  // in sqrt(area), as measured in the reference
 constexpr double disc_radius = 0.04;      // of the tangent directions, likewise
-// Of the maps' residual against the constellation's energy, where several constellations come near the best. On whole and
-// corrupted training shapes left out (six categories, 480 pairs of which one was right), 800 mended 11 and turned 2 wrong.
+// Weight of the maps' residual against the constellation's energy, where several constellations are nearly
+// optimal. On uncorrupted and corrupted training shapes left out (six categories, 480 pairs of which one was
+// correct), 800 corrected 11 and broke 2.
 constexpr double residual_weight = 800;
-// Likewise of the correlation of how the surfaces bulge, and of the mean logarithm of the best votes.
+// The same for the correlation of the bulge, and for the mean logarithm of the best votes.
 constexpr double bulge_weight = 80, level_weight = 10;
-// Where a heading is supposed, votes are nearly right: fewer candidates and starts do.
+// With an assumed heading, votes are nearly correct: fewer candidates and restarts suffice.
 constexpr int32_t oriented_peaks = 5, oriented_restarts = 12;
-constexpr double energy_margin = 20;  // hypotheses that cost more than the best by this are not looked at
-// Where the maps from the votes' places bulge as the body does, no training shapes are laid over it.
+// Hypotheses whose energy exceeds the best by more than this are dropped.
+constexpr double energy_margin = 20;
+// With at least this bulge agreement of the maps from the votes' places, no training shapes are overlaid.
 constexpr double convincing_bulge = 0.15;
-constexpr size_t tried_starts = 3;  // of training shapes laid over, a heading
-constexpr double cover_margin =
-    1.06;                          // of the least distance: headings in which they lie farther off are wrong
-constexpr int32_t few_shapes = 3;  // whose maps judge the votes' places
+constexpr size_t tried_starts = 3;  // overlaid training shapes, per heading
+// Relative to the smallest distance: headings with a larger one are rejected.
+constexpr double cover_margin = 1.06;
+constexpr int32_t few_shapes = 3;  // whose maps evaluate the votes' places
 
-// The places that the caller knows, on the analysed surface.
+// The known landmarks, on the analysed surface.
 std::vector<std::optional<SurfacePoint>> fixed_places(const DetectParams& params,
                                                       const SurfaceAnalysis& analysis) {
   auto result = params.fixed;
@@ -92,9 +94,9 @@ void record_placement_features(const std::vector<std::vector<int32_t>>& peaks,
   }
 }
 
-// How near each place is to a stump: a border that was closed and is longer than that of a small hole.
+// Distance of each place from a stump: a closed border longer than that of a small hole.
 void record_borders(const SurfaceAnalysis& analysis, Placement& placement) {
-  constexpr double long_border = 0.15;  // of sqrt(area)
+  constexpr double long_border = 0.15;  // in sqrt(area)
   if (analysis.proxy.filled_holes == 0) return;
   const TriangleMesh& full = analysis.proxy.full->surface;
   const PreparedMesh& coarse = *analysis.proxy.coarse;
@@ -114,7 +116,7 @@ void record_borders(const SurfaceAnalysis& analysis, Placement& placement) {
   }
 }
 
-// One way in which the body may be oriented, and what it leads to.
+// One assumed orientation of the body, and its results.
 struct Supposition {
   std::vector<std::vector<int32_t>> peaks;
   std::vector<int32_t> vertices;
@@ -160,7 +162,7 @@ Supposition suppose(const LandmarkModel& model, const SurfaceAnalysis& analysis,
   if (model.params.oriented) how.restarts = oriented_restarts, how.energy_margin = energy_margin;
   if (!analysis.proxy.full->is_oriented) how.chirality_weight = 0;
   result.choices = choose_constellations(result.statistics, result.candidates, how, execution);
-  // What the votes are worth beside those of another supposition: a wrong one scatters them.
+  // The value of the votes compared with those of another assumption: a wrong one scatters them.
   for (int32_t l = 0; l < L; ++l)
     result.penalty -= level_weight / L *
                       std::log(std::max(start.votes.col(l).maxCoeff() / static_cast<float>(samples), 1e-9f));
@@ -169,12 +171,12 @@ Supposition suppose(const LandmarkModel& model, const SurfaceAnalysis& analysis,
 }
 
 struct Hypothesis {
-  double energy = 0;  // of the choice and its supposition
+  double energy = 0;  // of the choice and its assumption
   Placement placement;
   double cost = 0, bulge_agreement = 0;  // see judge
 };
 
-// Those that the votes suggest.
+// The hypotheses that the votes suggest.
 std::vector<Hypothesis> hypotheses_of(const std::vector<Supposition>& suppositions, int32_t samples,
                                       const SurfaceAnalysis& analysis, const Execution& execution) {
   const double least = min_cost(suppositions);
@@ -190,7 +192,7 @@ std::vector<Hypothesis> hypotheses_of(const std::vector<Supposition>& suppositio
   return result;
 }
 
-// Landmarks where a training shape that was laid over the body has them.
+// Landmarks at the positions of an overlaid training shape.
 Hypothesis hypothesis_of(const LandmarkModel& model, const Supposition& from,
                          const std::vector<int32_t>& exemplars, const std::vector<SurfacePoint>& places,
                          int32_t samples, const SurfaceAnalysis& analysis, const Execution& execution) {
@@ -219,7 +221,7 @@ Hypothesis hypothesis_of(const LandmarkModel& model, const Supposition& from,
   return result;
 }
 
-// Costs of the hypotheses by maps from them; the cheapest comes first. shapes: see quick_map_fit.
+// Computes the costs of the hypotheses by maps from them and sorts by cost. shapes: see quick_map_fit.
 void rank_by_maps(const LandmarkModel& model, const SurfaceAnalysis& analysis, int32_t shapes,
                   const Execution& execution, std::vector<Hypothesis>& hypotheses) {
   for (Hypothesis& one : hypotheses) {
@@ -231,7 +233,8 @@ void rank_by_maps(const LandmarkModel& model, const SurfaceAnalysis& analysis, i
                    [](const auto& a, const auto& b) { return a.cost < b.cost; });
 }
 
-// Landmarks as training shapes have them that are laid over the body, in every likely orientation in which they cover it well.
+// Adds hypotheses from training shapes overlaid on the body, in every likely orientation in which they cover
+// it well.
 void add_laid_over(const LandmarkModel& model, const std::vector<Supposition>& suppositions, int32_t samples,
                    const SurfaceAnalysis& analysis, const Execution& execution,
                    std::vector<Hypothesis>& hypotheses) {

@@ -10,17 +10,18 @@
 namespace focal {
 namespace {
 
-constexpr float reach = 0.08f;   // of sqrt(area): the separation of the peaks, so the right one is within it
-constexpr float border = 0.02f;  // within it vertices count less and less, so that none comes in at once
+constexpr float reach = 0.08f;  // in sqrt(area): the separation of the peaks, so the correct one is within it
+constexpr float border = 0.02f;  // width in which vertices fade out, so that no vertex enters abruptly
 // Chosen by cross-validation on training splits of faust5k, teddy, ant, human07 and lion:
-constexpr double vote_weight = 10;  // against the mean squared deviation of the distances
+constexpr double vote_weight = 10;  // relative to the mean squared deviation of the distances
 constexpr double deviation_clip = 8;
-constexpr int32_t rounds = 2;        // the others have moved too
+constexpr int32_t rounds = 2;        // because the other landmarks move too
 constexpr double temperature = 0.3;  // of the mean place
-// Of distances to a known place, against those to others. Two folds of the training splits of ant, teddy and human07: docs/accuracy.md.
+// Weight of distances to a known landmark, relative to others. Two folds of the training splits of ant, teddy
+// and human07: docs/accuracy.md.
 constexpr double fixed_weight = 4;
 
-// Cost of placing one landmark at each vertex near its present place.
+// Cost of placing one landmark at each vertex near its current place.
 struct Region {
   std::vector<int32_t> vertex;
   std::vector<double> cost, share;  // share: 1, down to 0 at the border
@@ -60,13 +61,13 @@ Region region_of(const ConstellationStatistics& statistics, const Placement& pla
   return region;
 }
 
-// The mean of the region's places, each as likely as exp(-cost / temperature), on the surface; on the side that most of
-// them are on. A thin part has two: a place counts by how far it faces the same way.
+// The mean of the region's places, weighted by exp(-cost / temperature) and projected to the surface, on the
+// side that most of them are on. A thin part has two sides: a place counts by how well its normal agrees.
 SurfacePoint mean_place(const SurfaceAnalysis& analysis, const MatrixX3& normals, const Region& region,
                         const SurfacePoint& before) {
-  constexpr double facing = 0.2;  // cosine of the angle from which a place counts in full
+  constexpr double facing = 0.2;  // cosine of the angle below which a place counts fully
   const TriangleMesh& mesh = analysis.surface();
-  if (region.vertex.empty()) return before;  // all vertices of a large triangle are far
+  if (region.vertex.empty()) return before;  // all vertices of a large triangle are out of reach
   const double lowest = *std::min_element(region.cost.begin(), region.cost.end());
   std::vector<double> weight;
   Eigen::RowVector3d side = Eigen::RowVector3d::Zero();

@@ -1,5 +1,5 @@
-// The last step of preset `default`: each landmark is moved, near where it was placed, to the vertex that agrees best
-// with its votes and with its distances to the other landmarks.
+// The last step of preset `default`: moves each landmark near its current place to the vertex that agrees
+// best with its votes and with its distances to the other landmarks.
 #pragma once
 #include "analysis/surface_analysis.h"
 #include "landmarks/placement.h"

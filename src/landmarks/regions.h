@@ -1,4 +1,4 @@
-// A landmark and a radius make a region: geodesic distances from points of a surface to all vertices of the caller's mesh.
+// Regions around landmarks: geodesic distances from points of a surface to all vertices of the caller's mesh.
 #pragma once
 #include <vector>
 
@@ -8,14 +8,14 @@
 
 namespace focal {
 
-// Solved on the proxy, so the cost hardly grows with the mesh: about 50 ms to make one, 10 ms a point. Immutable once made:
-// thread-safe.
+// Solved on the proxy, so the cost hardly grows with the mesh: about 50 ms to create, 10 ms per point.
+// Immutable and thread-safe.
 class DistanceFields {
  public:
   DistanceFields(Proxy proxy, const Execution& execution);
 
-  // In the caller's units, one for each vertex of mesh.source; infinity where no triangle uses the vertex. The point lies on
-  // mesh.source, in a triangle that the surface has.
+  // Distances in the caller's units, one for each vertex of mesh.source; infinity where no triangle uses the
+  // vertex. The point is on mesh.source, in a triangle that the surface has.
   std::vector<float> from(const SurfacePoint& source_point, const Execution& execution) const;
 
  private:
@@ -24,7 +24,7 @@ class DistanceFields {
   std::vector<SurfacePoint> places_;  // of the full surface's vertices on the coarse one
 };
 
-// 1 within the radius, 0 beyond, falling from one to the other over the width `border` across it.
+// 1 within the radius, 0 outside, with a linear transition of width `border`.
 std::vector<float> membership(const std::vector<float>& distances, double radius, double border);
 
 }  // namespace focal

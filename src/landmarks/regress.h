@@ -1,11 +1,11 @@
-// What a model's regression makes of an analysed mesh, beside the truth.
+// A model's regressed distances on an analysed mesh, and the true ones.
 #pragma once
 #include "paper/paper.h"
 
 namespace focal {
 
-// As regress_paper for preset `paper`. Preset `default`: in sqrt(area), the mean of what the samples' leaves hold.
-// Throws invalid_argument when the analysis was made with other parameters than the model's.
+// As regress_paper for preset `paper`. Preset `default`: in sqrt(area), the mean over the samples' leaves.
+// Throws invalid_argument when the parameters of the analysis differ from the model's.
 Regression regress(const LandmarkModel& model, const SurfaceAnalysis& analysis, int32_t landmark,
                    const SurfacePoint& truth, const Execution& execution);
 

@@ -10,18 +10,18 @@ namespace focal {
 namespace {
 
 constexpr int32_t compared_points = 400;  // of either shape
-constexpr double max_stretch = 0.4;       // logarithm of what one axis is scaled by, beside the mean of all
-constexpr float mark_radius =
-    0.05f;  // of sqrt(area), beyond the nearest point: within it points say where a mark lies
+constexpr double max_stretch = 0.4;       // logarithm of the scale of one axis relative to the mean scale
+// In sqrt(area), beyond the nearest point: points within it determine the position of a landmark.
+constexpr float mark_radius = 0.05f;
 
-// The shape's points with the mean and, within limits, the extents of the other.
+// The shape's points with the mean and, within limits, the extents of the other shape.
 MatrixX3 laid_over(const MatrixX3& points, const Vector& weight, const Extents& other) {
   const Extents own = extents_of(points, weight);
   return ((points.rowwise() - own.mean.transpose()) * scale_onto(own, other).asDiagonal()).rowwise() +
          other.mean.transpose();
 }
 
-// Mean distance of every so many points from the nearest of a tree.
+// Mean distance of a subset of points from the nearest point of a tree.
 double mean_distance(const MatrixX3& points, const Vector& weight, const NearestVertex& tree) {
   const Eigen::Index stride = std::max<Eigen::Index>(points.rows() / compared_points, 1);
   double sum = 0, total = 0;
@@ -32,7 +32,7 @@ double mean_distance(const MatrixX3& points, const Vector& weight, const Nearest
   return sum / total;
 }
 
-// Where the points nearest to the mark lie.
+// Mean position of the points nearest to the landmark.
 Vector3 place_of_mark(const Exemplar& shape, float reach, int32_t landmark, const MatrixX3& laid) {
   const Eigen::VectorXf away =
       shape.distances.col(landmark).head(laid.rows()).cast<float>() * (reach / target_steps);

@@ -23,26 +23,27 @@ namespace {
 constexpr double disc_radius = 0.04;         // of sqrt(area), as in detection
 constexpr int32_t folds = 3;                 // of the cross-fitted confidence
 constexpr int32_t augmented_samples = 1500;  // of each corrupted copy; more of them do not help
-// Of all shapes and copies, so that models of many shapes stay small; fewer where an orientation makes features say more.
+// For all shapes and copies, so that models of many shapes stay small; fewer with an orientation, which makes
+// features more informative.
 constexpr double max_samples = 120000, max_oriented_samples = 40000;
-constexpr int32_t max_calibration_shapes = 24;  // shapes left out in turn to learn confidence from
+constexpr int32_t max_calibration_shapes = 24;  // shapes left out in turn to learn confidence
 
-// What the training keeps of one shape.
+// The training data of one shape.
 struct LearnedShape {
-  RowMatrixf targets;  // samples x landmarks: distance to the mark, NaN where there is none
-  std::vector<std::optional<SurfacePoint>> points;  // the marks, on the analysed surface
-  RowMatrixf fields;                                // distances of all vertices from those that are there
+  RowMatrixf targets;  // samples x landmarks: distance to the landmark, NaN where it is absent
+  std::vector<std::optional<SurfacePoint>> points;  // the landmarks, on the analysed surface
+  RowMatrixf fields;                                // distances of all vertices from the existing landmarks
   ConstellationSample constellation;
 };
 
-// A shape to learn from, or one that calibrates the confidence.
+// A shape for training, or for calibrating the confidence.
 struct TrainingExample {
   MarkedShape shape;
   SurfaceAnalysis analysis;
   LearnedShape learned;
-  Matrix3 frame = Matrix3::Identity();  // in which it stands, see features_of
+  Matrix3 frame = Matrix3::Identity();  // its orientation, see features_of
 };
-// One training shape, whole and corrupted.
+// One training shape, uncorrupted and corrupted.
 struct TrainingShape {
   TrainingExample whole;
   std::vector<TrainingExample> augmented;
@@ -56,10 +57,10 @@ void validate_method(const TrainParams& params) {
     throw Error(Status::invalid_argument, "there is no such descriptor or distance", "start from a preset");
   const DistanceKind& distance = distance_kinds()[params.distance];
   if (params.preset == Preset::default_preset && !distance.is_geodesic)
-    throw Error(Status::unsupported,
-                "preset default reckons with lengths along the surface: the distance " +
-                    std::string(distance.name) + " is none",
-                "choose a geodesic distance, or preset paper");
+    throw Error(
+        Status::unsupported,
+        "preset default needs a geodesic distance: " + std::string(distance.name) + " is not geodesic",
+        "choose a geodesic distance, or preset paper");
 }
 
 void validate(const TrainingSet& set, const TrainParams& params) {
@@ -132,8 +133,8 @@ LearnedShape learn_shape(const MarkedShape& shape, const SurfaceAnalysis& analys
   return result;
 }
 
-// Fills the parts of a `default` model that the given shapes teach: forest, targets, reach from all their copies;
-// constellation and exemplars from the whole ones, which are what a category looks like.
+// Trains parts of a `default` model on the given shapes: forest, targets and reach on all their copies;
+// constellation and exemplars on the uncorrupted ones, which represent the category.
 void learn_parts(LandmarkModel& model, const std::vector<const TrainingShape*>& shapes,
                  const Execution& execution) {
   std::vector<const TrainingExample*> examples;
@@ -170,7 +171,8 @@ void learn_parts(LandmarkModel& model, const std::vector<const TrainingShape*>& 
       model.targets(s, l) =
           missing ? target_missing
                   : static_cast<uint16_t>(std::lround(targets(s, l) / model.reach * target_steps));
-      if (missing) targets(s, l) = static_cast<float>(sum / count);  // has no say in where the trees split
+      if (missing)
+        targets(s, l) = static_cast<float>(sum / count);  // does not affect the splits of the trees
     }
   }
   std::vector<ConstellationSample> constellations;
@@ -196,7 +198,8 @@ void learn_parts(LandmarkModel& model, const std::vector<const TrainingShape*>& 
   model.forests.assign(1, grow_forest(bin_descriptors(descriptors, execution), targets, forest, execution));
 }
 
-// The placements of one shape by a model that has not seen it, each with its error. id: another one for each mesh.
+// The placements of one shape by a model that was not trained on it, each with its error. id: unique for each
+// mesh.
 void place_left_out(const LandmarkModel& model, const TrainingExample& example, int32_t id, bool is_whole,
                     std::vector<CalibrationSample>& samples, const Execution& execution) {
   const auto& [shape, analysis, learned, frame] = example;
@@ -219,10 +222,11 @@ void place_left_out(const LandmarkModel& model, const TrainingExample& example, 
   }
 }
 
-// The same shape with the defects of a scan (copy 0), or with a part missing: models learn what such meshes look like too.
+// The shape with the defects of a scan (copy 0) or with a part missing, so that models learn how such meshes
+// look.
 std::optional<MarkedShape> augmented(const MarkedShape& shape, int32_t copy, Random random,
                                      const Execution& execution) {
-  constexpr int32_t smallest = 100;  // vertices that make a shape still, when some have gone
+  constexpr int32_t smallest = 100;  // minimum number of vertices that must remain
   CorruptedMesh corrupted = intact(shape.mesh->surface, shape.marks);
   if (copy > 0) {
     std::vector<SurfacePoint> marks;
@@ -239,7 +243,7 @@ std::optional<MarkedShape> augmented(const MarkedShape& shape, int32_t copy, Ran
   if (corrupted.mesh.vertex_count() < smallest ||
       corrupted.mesh.triangle_count() < shape.mesh->surface.triangle_count() / 3)
     return std::nullopt;
-  // As the whole shape is: a speck that a hole leaves does not make it a body of many parts.
+  // Analysed like the original shape: a fragment left by a hole must not make it a body of several parts.
   const auto analysed = shape.mesh->is_wrapped ? AnalysedSurface::wrapped : AnalysedSurface::as_it_is;
   MarkedShape result{
       std::make_shared<PreparedMesh>(prepare(std::move(corrupted.mesh), {.analysed = analysed}, execution)),
@@ -253,8 +257,8 @@ std::optional<MarkedShape> augmented(const MarkedShape& shape, int32_t copy, Ran
   return result;
 }
 
-// Places the landmarks of every shape, whole and corrupted, by a model that has not seen it, and learns from the outcome
-// how far to trust.
+// Places the landmarks of every shape, uncorrupted and corrupted, by a model that was not trained on it, and
+// learns the confidence from the results.
 Calibration cross_fit(const LandmarkModel& model, const std::vector<TrainingShape>& shapes,
                       const Execution& execution) {
   const auto count = static_cast<int32_t>(shapes.size());
@@ -283,7 +287,7 @@ Calibration cross_fit(const LandmarkModel& model, const std::vector<TrainingShap
   return calibrate(samples, static_cast<int32_t>(model.landmark_names.size()));
 }
 
-// How users' files stand beside the training shapes': nearly as they do.
+// Random orientation of users' files relative to the training shapes: nearly the same.
 Matrix3 random_frame(Random random) {
   constexpr double heading = 0.25, tilt = 0.12;  // standard deviations, radians
   const double angle = heading * random.normal();
@@ -343,7 +347,7 @@ LandmarkModel train(const TrainingSet& set, const TrainParams& params, const Exe
   model.params = params;
   model.skeleton = set.skeleton;
   model.skeleton_template = set.skeleton_template;
-  // Shapes of rigged characters come in other poses and proportions too: copies of copies add little.
+  // Shapes of rigged characters already include other poses and proportions: copies of copies add little.
   if (!set.skeleton.empty()) model.params.augmented_copies = std::min(params.augmented_copies, 1);
   model.params.oriented = params.oriented && !set.skeleton.empty();
   model.shape_count = static_cast<int32_t>(set.shapes.size());

@@ -1,4 +1,4 @@
-// From marked shapes to a model.
+// Trains a model on marked shapes.
 #pragma once
 #include "base/parallel.h"
 #include "model/model_info.h"
@@ -6,7 +6,7 @@
 
 namespace focal {
 
-// Throws too_few_shapes (fewer than two shapes carry a landmark), invalid_landmark, cancelled.
+// Throws too_few_shapes (a landmark on fewer than two shapes), invalid_landmark, cancelled.
 LandmarkModel train(const TrainingSet& set, const TrainParams& params, const Execution& execution);
 
 }  // namespace focal

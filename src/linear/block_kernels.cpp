@@ -10,8 +10,7 @@ namespace {
 
 constexpr int lanes = 32;
 
-// Four rows by four vectors of C stay in registers while the inner index runs (two rows where registers are
-// few).
+// Four rows by four vectors of C stay in registers during the inner loop (two rows where registers are few).
 template <int vector_bytes, class T>
 FOCAL_INLINE void multiply_add_body(const StridedView<T>& A, int64_t rows, int64_t inner, const T* B, T* C) {
   typedef T Lane __attribute__((vector_size(vector_bytes), may_alias));

@@ -1,5 +1,5 @@
 // Dense and sparse products of tall blocks of 32 interleaved columns (those of SparseCholesky): X[i * 32 + j]
-// is row i of column j. Each sum runs in the order of its inner index, so the bits do not depend on the
+// is row i of column j. Each sum is in the order of its inner index, so the bits do not depend on the
 // processor.
 #pragma once
 #include <cstdint>
@@ -19,7 +19,7 @@ struct StridedView {
 void multiply_add(const StridedView<double>& A, int64_t rows, int64_t inner, const double* B, double* C);
 void multiply_add(const StridedView<float>& A, int64_t rows, int64_t inner, const float* B, float* C);
 
-// Rows [begin, end) of A X, written from the start of Y. A is symmetric, so its columns are its rows.
+// Rows [begin, end) of A X, stored from the start of Y. A is symmetric, so its columns are its rows.
 void multiply_rows(const SparseMatrix& A, int64_t begin, int64_t end, const double* X, double* Y);
 
 }  // namespace focal

@@ -1,5 +1,5 @@
-// Register-tiled loops. Every sum runs in one order whatever the vector width, so all versions give the same
-// bits.
+// Register-tiled loops. The order of every sum does not depend on the vector width, so all versions give the
+// same bits.
 #include "linear/front_kernel.h"
 
 #include <algorithm>
@@ -10,8 +10,8 @@
 namespace focal {
 namespace {
 
-// Rows [row, row + height) of the front, from column `from` on, less the products of the eliminated rows
-// [begin, end).
+// Subtracts from rows [row, row + height) of the front, from column `from` on, the products of the eliminated
+// rows [begin, end).
 template <int vector_bytes, int height>
 FOCAL_INLINE void update_rows(double* front, int64_t stride, int64_t begin, int64_t end, int64_t row) {
   typedef double Lane __attribute__((vector_size(vector_bytes), may_alias));
@@ -41,7 +41,7 @@ FOCAL_INLINE void update_range(double* front, int64_t stride, int64_t begin, int
 
 template <int vector_bytes>
 FOCAL_INLINE bool eliminate_body(double* front, int64_t size, int64_t stride, int64_t width) {
-  constexpr int64_t step = 8;  // pivots that are eliminated before the pivots after them see it
+  constexpr int64_t step = 8;  // pivots eliminated before the following pivots are updated
   for (int64_t begin = 0; begin < width; begin += step) {
     const int64_t end = std::min(width, begin + step);
     for (int64_t k = begin; k < end; ++k) {

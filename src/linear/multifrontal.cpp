@@ -1,6 +1,6 @@
 // The multifrontal method (J. Liu, "The multifrontal method for sparse matrix solution: theory and practice",
-// 1992): every supernode gathers its columns of the matrix and what its children leave over in one small dense
-// matrix, eliminates its own columns and leaves the rest to its parent.
+// 1992): every supernode assembles its columns of the matrix and its children's update matrices in one small
+// dense matrix, eliminates its own columns and passes the rest to its parent.
 #include "linear/multifrontal.h"
 
 #include <algorithm>
@@ -109,7 +109,7 @@ class Multifrontal {
 
   const SymbolicFactor& symbolic_;
   PermutedColumns A_;
-  std::vector<int32_t> local_;  // row of the matrix: its row in the front at hand
+  std::vector<int32_t> local_;  // row of the matrix: its row in the current front
   std::vector<std::unique_ptr<Front>> left_over_;
   std::vector<std::vector<int32_t>> children_;
 };

@@ -1,4 +1,4 @@
-// The numbers of a sparse Cholesky factor.
+// The numerical values of a sparse Cholesky factor.
 #pragma once
 #include <vector>
 

@@ -1,5 +1,6 @@
-// Supernodes share their rows, so a row of X that was loaded once serves several rows or columns of the factor, whose
-// sums stay in registers (E. Ng, B. Peyton, "Block sparse Cholesky algorithms on advanced uniprocessor computers", 1993).
+// The columns of a supernode share their rows, so a loaded row of X serves several rows or columns of the
+// factor, whose sums stay in registers (E. Ng, B. Peyton, "Block sparse Cholesky algorithms on advanced
+// uniprocessor computers", 1993).
 #include "linear/panel_solve.h"
 
 #include <algorithm>
@@ -32,7 +33,7 @@ struct Tile {
   static constexpr int height = vector_bytes == 64 ? 16 / vectors : 2;  // so that all sums stay in registers
 };
 
-// Calls visit.operator()<h>(begin) for steps of `height` from 0 to count, and smaller ones for what is left.
+// Calls visit.operator()<h>(begin) for steps of `height` from 0 to count, and smaller ones for the rest.
 template <int height, class Visit>
 FOCAL_INLINE void for_each_step(int64_t count, const Visit& visit) {
   int64_t i = 0;
@@ -57,7 +58,8 @@ FOCAL_INLINE void for_each_step_back(int64_t count, const Visit& visit) {
   for (int64_t i = whole - height; i >= 0; i -= height) visit.template operator()<height>(i);
 }
 
-// Rows [i, i + h), at `row(i)`, less their entries in the first `inner` columns; `finish` sees the sums last.
+// Subtracts from rows [i, i + h), at `row(i)`, their entries in the first `inner` columns; `finish` gets the
+// sums last.
 template <class Tile, int h, class Row, class Finish>
 FOCAL_INLINE void forward_step(const Panel<typename Tile::T>& p, int64_t i, int64_t inner, int lane,
                                const Row& row, const Finish& finish) {
@@ -98,8 +100,8 @@ FOCAL_INLINE void forward(const Panel<typename Tile::T>& p, int lane) {
       });
 }
 
-// Columns [k, k + h): their rows of X, less the entries below them. Few columns have several sums each, which hide the
-// latency of the subtraction.
+// For columns [k, k + h): their rows of X minus the entries below them. Few columns have several sums each,
+// to hide the latency of the subtraction.
 template <class Tile, int h>
 FOCAL_INLINE void backward_step(const Panel<typename Tile::T>& p, int64_t k, int lane) {
   using Lane = typename Tile::Lane;

@@ -1,10 +1,11 @@
-// Triangular solves with the panels of a sparse Cholesky factor, 32 sides at a time: the inner loop of the analysis.
+// Triangular solves with the panels of a sparse Cholesky factor, 32 right-hand sides at a time: the inner
+// loop of the analysis.
 #pragma once
 #include "linear/symbolic_factor.h"
 
 namespace focal {
 
-// G, P A P^T = G G^T, as `factorise` leaves it.
+// G, P A P^T = G G^T, as computed by `factorise`.
 template <class T>
 struct Panels {
   const SymbolicFactor* symbolic;

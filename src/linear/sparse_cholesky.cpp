@@ -38,7 +38,7 @@ void SparseCholesky::solve_block(float* X) const {
 Vector SparseCholesky::solve(const Vector& b) const {
   Vector x(size());
   for (int32_t i = 0; i < size(); ++i) x(permutation()[i]) = b(i);
-  // visit(column, value of the entry below the diagonal, its row), of supernode s.
+  // Calls visit(column, value of the entry below the diagonal, its row) for supernode s.
   const auto for_each_below = [&](int32_t s, int64_t k, const auto& visit) {
     const int32_t first = symbolic_->first_column[s], width = symbolic_->width(s);
     const int64_t rows = width + symbolic_->row_count(s);

@@ -1,4 +1,4 @@
-// A sparse Cholesky factor made once and used for many right-hand sides at a time.
+// A sparse Cholesky factor, computed once and used for many right-hand sides at a time.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -9,9 +9,9 @@
 
 namespace focal {
 
-// P A P^T = G G^T, A symmetric positive definite, ordered by approximate minimum degree.
-// Each entry of the factor is read once for a block of `lanes` right-hand sides, which lie interleaved: X[i * lanes + j]
-// is row i of side j.
+// P A P^T = G G^T, A symmetric positive definite, ordered by approximate minimum degree. Each entry of the
+// factor is read once for a block of `lanes` right-hand sides, which are interleaved: X[i * lanes + j] is row
+// i of side j.
 class SparseCholesky {
  public:
   static constexpr int lanes = 32;
@@ -19,8 +19,8 @@ class SparseCholesky {
   SparseCholesky() = default;
   // Only the lower triangle of A is read. Throws not_converged when A is not positive definite, and cancelled.
   explicit SparseCholesky(const SparseMatrix& A, const Execution& execution = {});
-  // The same for an A with entries in the same places as that of `same_pattern`, or in some of them: its order
-  // and analysis are shared.
+  // The same for an A whose entries are at the same positions as in `same_pattern`, or a subset: ordering and
+  // analysis are shared.
   SparseCholesky(const SparseMatrix& A, const SparseCholesky& same_pattern, const Execution& execution = {});
   SparseCholesky(const SparseMatrix& A, std::shared_ptr<const SymbolicFactor> symbolic,
                  const Execution& execution = {});
@@ -36,7 +36,7 @@ class SparseCholesky {
   // 64-byte aligned. Thread-safe. The float version rounds the factor to float.
   void solve_block(double* X) const;
   void solve_block(float* X) const;
-  // One side, in the caller's order.
+  // One right-hand side, in the caller's order.
   Vector solve(const Vector& b) const;
 
  private:

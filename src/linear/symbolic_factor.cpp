@@ -36,7 +36,7 @@ Pattern permuted_pattern(const SparseMatrix& A, const std::vector<int32_t>& orde
 
 std::vector<int32_t> minimum_degree(const SparseMatrix& A) {
   Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int32_t> inverse;
-  SparseMatrix::Base full;  // filled when it is there, see base/matrix.h
+  SparseMatrix::Base full;  // filled after construction, see base/matrix.h
   full = A.selfadjointView<Eigen::Lower>();
   Eigen::AMDOrdering<int32_t>()(full, inverse);
   std::vector<int32_t> order(A.cols());
@@ -48,7 +48,7 @@ std::vector<int32_t> minimum_degree(const SparseMatrix& A) {
 std::vector<int32_t> elimination_tree(const SparseMatrix& A, const std::vector<int32_t>& order) {
   const auto n = static_cast<int32_t>(A.cols());
   const Pattern pattern = permuted_pattern(A, order);
-  // Liu's walk goes by rows: the columns left of the diagonal in each.
+  // Liu's algorithm goes by rows: the columns left of the diagonal in each.
   Pattern rows{std::vector<int32_t>(n + 1, 0), std::vector<int32_t>(pattern.row.size())};
   for (const int32_t i : pattern.row) ++rows.start[i + 1];
   std::partial_sum(rows.start.begin(), rows.start.end(), rows.start.begin());
@@ -67,7 +67,7 @@ std::vector<int32_t> elimination_tree(const SparseMatrix& A, const std::vector<i
   return parent;
 }
 
-// [column] = its place when every subtree is numbered without gaps.
+// [column] = its position when every subtree is numbered without gaps.
 std::vector<int32_t> postorder(const std::vector<int32_t>& parent) {
   const auto n = static_cast<int32_t>(parent.size());
   std::vector<int32_t> size(n + 1, 1), place(n + 1), used(n + 1, 0);
@@ -103,8 +103,8 @@ class Supernodes {
   const std::vector<Node>& nodes() const { return nodes_; }
 
  private:
-  // The rows of a column are those of the matrix and of the supernodes whose first row it is. Where that is
-  // no more than the supernode just before has, the column joins it.
+  // The rows of a column are those of the matrix and of the supernodes whose first row it is. If these are no
+  // more than those of the preceding supernode, the column joins it.
   void add_column(int32_t j) {
     std::vector<int32_t> rows;
     const auto take = [&](int32_t i) {
@@ -126,7 +126,7 @@ class Supernodes {
     waiting_[j] = {};
   }
 
-  // Wider panels are worth a few zeros: a child joins its parent while little is added.
+  // Wider panels are worth a few zeros: a child is merged into its parent while few are added.
   void merge() {
     std::vector<Node> merged;
     for (Node& node : nodes_) {

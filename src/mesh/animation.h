@@ -1,4 +1,5 @@
-// Animations as files keep them: keys of nodes, and where the nodes stand in between (glTF 2.0, sections 3.11 and appendix C).
+// Animations as stored in files: keyframes of nodes and their interpolation (glTF 2.0, sections 3.11 and
+// appendix C).
 #pragma once
 #include <string>
 #include <vector>
@@ -9,18 +10,18 @@ namespace focal {
 
 enum class Interpolation { linear, step, cubic };
 
-// Keys of one property. A row of values a time; cubic: three rows (in-tangent, value, out-tangent).
+// Keyframes of one property. One row of values per time; cubic: three rows (in-tangent, value, out-tangent).
 struct Keys {
   std::vector<double> times;  // seconds, ascending
   RowMatrix values;           // rotations: x, y, z, w
   Interpolation interpolation = Interpolation::linear;
 
   bool empty() const { return times.empty(); }
-  // Before the first key and past the last the value stays. Rotations take the shorter arc, and are of length 1.
+  // Constant before the first key and after the last. Rotations take the shorter arc and are normalised.
   Vector at(double time) const;
 };
 
-// Where a node stands to its parent.
+// Transform of a node relative to its parent.
 struct NodePose {
   Vector3 translation = Vector3::Zero();
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
@@ -28,13 +29,13 @@ struct NodePose {
 };
 Matrix4 matrix_of(const NodePose& pose);
 
-// All nodes of a file. Parents may come after their children: `order` has them first.
+// All nodes of a file. Parents may come after their children; `order` lists parents first.
 struct NodeTree {
   std::vector<int32_t> parent;  // -1: a root
   std::vector<int32_t> order;
   std::vector<int32_t> depth;  // 0: a root
-  std::vector<NodePose>
-      pose;  // a node that is given by a matrix counts as standing at its parent once it is animated
+  // A node with a matrix gets the identity here once it is animated.
+  std::vector<NodePose> pose;
   std::vector<Matrix4> local;  // without animation
 };
 
@@ -51,17 +52,17 @@ struct Clip {
   std::vector<Channel> channels;
 };
 
-// Of each node to the world, at a moment of the clip; without one as the file has them.
+// World transform of each node at a time of the clip; without a clip as in the file.
 std::vector<Matrix4> world_transforms(const NodeTree& tree, const Clip* clip = nullptr, double time = 0);
 
-// How a joint stands to its parent over time; without keys it stays as it is.
+// Keyframes of a joint relative to its parent; without keys it is constant.
 struct JointKeys {
   Keys rotation, translation;
 };
 
 struct JointAnimation {
   std::string name;
-  std::vector<JointKeys> joints;  // one a joint
+  std::vector<JointKeys> joints;  // one per joint
 };
 
 }  // namespace focal

@@ -1,4 +1,4 @@
-// Boxes along the axes.
+// Axis-aligned boxes.
 #pragma once
 #include <limits>
 
@@ -12,10 +12,10 @@ struct Box {
 
   void add(const Vector3& point) { low = low.cwiseMin(point), high = high.cwiseMax(point); }
   void add(const Box& other) { low = low.cwiseMin(other.low), high = high.cwiseMax(other.high); }
-  double diagonal() const { return (high - low).norm(); }  // infinite while it is empty
+  double diagonal() const { return (high - low).norm(); }  // infinite for an empty box
 };
 
-// How far apart the nearest points of two boxes lie.
+// Distance between the nearest points of two boxes.
 inline double gap(const Box& a, const Box& b) {
   return (a.low - b.high).cwiseMax(b.low - a.high).cwiseMax(0).norm();
 }

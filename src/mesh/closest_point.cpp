@@ -27,7 +27,7 @@ void consider(const TriangleMesh& mesh, int32_t t, const SurfaceQuery& query, Ne
 
 SurfaceQuery facing_anywhere(const SurfaceQuery& query) { return {query.position, Vector3::Zero()}; }
 
-// The queries whose ball may reach a triangle, by slabs across the longest axis of them all.
+// Finds the queries whose ball may reach a triangle, by slabs along the longest axis of all queries.
 class QuerySlabs {
  public:
   QuerySlabs(std::span<const SurfaceQuery> queries, const std::vector<int32_t>& open, double radius) {
@@ -41,7 +41,7 @@ class QuerySlabs {
       for (int s = slab_of(at - radius); s <= slab_of(at + radius); ++s) of_[s].push_back(q);
     }
   }
-  // Calls visit(query) for those of every slab between two heights, which may name a query twice.
+  // Calls visit(query) for the queries of every slab between two coordinates; it may visit a query twice.
   template <class Visit>
   void for_each(const Eigen::RowVector3d& low, const Eigen::RowVector3d& high, const Visit& visit) const {
     if ((high[axis_] - low_) * to_slab_ < 0 || (low[axis_] - low_) * to_slab_ > slabs) return;
@@ -59,7 +59,7 @@ class QuerySlabs {
   std::array<std::vector<int32_t>, slabs> of_;
 };
 
-// Those of the triangles [begin, end) whose box comes within the radius are looked at closely.
+// Tests exactly only those of the triangles [begin, end) whose box is within the radius.
 void search(const TriangleMesh& mesh, std::span<const SurfaceQuery> queries, const QuerySlabs& slabs,
             double radius, int64_t begin, int64_t end, std::vector<Nearest>& found) {
   for (auto t = static_cast<int32_t>(begin); t < end; ++t) {
@@ -74,7 +74,7 @@ void search(const TriangleMesh& mesh, std::span<const SurfaceQuery> queries, con
   }
 }
 
-// One pass over the triangles for all queries still open.
+// One pass over the triangles for all queries without a result.
 void search_all(const TriangleMesh& mesh, std::span<const SurfaceQuery> queries, double radius,
                 std::vector<Nearest>& found, const Execution& execution) {
   constexpr int64_t grain = 1 << 14;  // tens of milliseconds
@@ -102,7 +102,7 @@ std::vector<SurfacePoint> closest_of_some(const TriangleMesh& mesh, std::span<co
     search_all(mesh, queries, round == 3 ? everywhere : radius, found, execution);
   std::vector<SurfacePoint> result;
   for (size_t q = 0; q < queries.size(); ++q) {
-    if (missing(found[q]))  // nothing faces that way: any triangle will do
+    if (missing(found[q]))  // no triangle has a matching normal: accept any
       for (int32_t t = 0; t < mesh.triangle_count(); ++t)
         consider(mesh, t, facing_anywhere(queries[q]), found[q]);
     result.push_back(found[q].point);
@@ -111,7 +111,8 @@ std::vector<SurfacePoint> closest_of_some(const TriangleMesh& mesh, std::span<co
 }
 
 SurfacePoint closest_in(const TriangleTree& tree, const TriangleMesh& mesh, const SurfaceQuery& query) {
-  constexpr double rounding = 1 + 1e-12;  // a box may seem farther than the triangle that touches it
+  // The distance of a box may round to more than that of a triangle touching it.
+  constexpr double rounding = 1 + 1e-12;
   Nearest nearest;
   tree.search([&](const Eigen::AlignedBox3d& box) { return box.squaredExteriorDistance(query.position); },
               [&] { return nearest.squared * rounding; },
@@ -119,7 +120,7 @@ SurfacePoint closest_in(const TriangleTree& tree, const TriangleMesh& mesh, cons
   return nearest.point;
 }
 
-// Worth the making of a tree: hundreds of queries.
+// Number of queries for which building a tree pays off: hundreds.
 std::vector<SurfacePoint> closest_of_many(const TriangleMesh& mesh, std::span<const SurfaceQuery> queries,
                                           const Execution& execution) {
   const TriangleTree tree(mesh, execution);
@@ -157,8 +158,8 @@ Vector3 closest_on_triangle(const Vector3& p, const Vector3& a, const Vector3& b
     return Vector3(0, 1 - w, w);
   }
   const double sum = va + vb + vc;
-  return sum > 0 ? Vector3(va / sum, vb / sum, vc / sum)
-                 : Vector3(1, 0, 0);  // a needle without area: its first corner
+  // A degenerate triangle: its first corner.
+  return sum > 0 ? Vector3(va / sum, vb / sum, vc / sum) : Vector3(1, 0, 0);
 }
 
 }  // namespace focal

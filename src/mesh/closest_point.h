@@ -1,4 +1,4 @@
-// The surface point nearest to a given place, on the side that faces the same way.
+// Nearest surface points to given positions, on the side with a similar normal.
 #pragma once
 #include <span>
 #include <vector>
@@ -10,12 +10,13 @@ namespace focal {
 
 struct SurfaceQuery {
   Vector3 position;
-  Vector3
-      normal;  // only triangles within 90 degrees of it count, so that thin parts keep their two sides; 0: all
+  // Only triangles within 90 degrees of it count, so that the two sides of thin parts are kept apart; 0: all
+  // triangles.
+  Vector3 normal;
 };
 
-// One a query. radius: where a few queries look first, about twice the distance expected; widened until something is found.
-// Hundreds of queries go through a tree of triangles instead.
+// One result per query. radius: initial search radius for a few queries, about twice the expected distance;
+// increased until something is found. Hundreds of queries use a tree of triangles instead.
 std::vector<SurfacePoint> closest_points(const TriangleMesh& mesh, std::span<const SurfaceQuery> queries,
                                          double radius, const Execution& execution = Execution().inner());
 

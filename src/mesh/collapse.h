@@ -1,4 +1,4 @@
-// meshoptimizer's edge collapse, where a failure may be caught.
+// meshoptimizer's edge collapse, compiled so that its failures can be caught.
 #pragma once
 #include <span>
 #include <vector>
@@ -7,7 +7,8 @@
 
 namespace focal {
 
-// The triangles that are left, three numbers each, when about `wanted` triangles are to be. options: of meshopt_simplify.
+// Returns the remaining triangles, three indices each, aiming for about `wanted` triangles. options: of
+// meshopt_simplify.
 std::vector<unsigned> collapse_edges(
     std::span<const unsigned> indices,
     const Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>& positions, size_t wanted,

@@ -14,8 +14,8 @@ int32_t find_root(std::vector<int32_t>& parent, int32_t v) {
   return v;
 }
 
-// Nearest pair between one part and the rest of the joined ones, then the pairs beside it: three links hold a part in
-// place where one would let heat pass through a single point only.
+// Links one part to the joined ones by the nearest pair, then by pairs beside it: three links constrain a
+// part, where heat would pass through a single point with only one.
 void link_part(const TriangleMesh& mesh, const std::vector<int32_t>& part, const NearestVertex& joined,
                std::vector<std::pair<int32_t, int32_t>>& bridges) {
   std::vector<std::tuple<double, int32_t, int32_t>> pairs;
@@ -55,8 +55,8 @@ std::vector<std::pair<int32_t, int32_t>> bridge_pairs(const TriangleMesh& mesh,
   for (int32_t v = 0; v < mesh.vertex_count(); ++v) parts[components.of_vertex[v]].push_back(v);
   std::stable_sort(parts.begin(), parts.end(),
                    [](const auto& a, const auto& b) { return a.size() > b.size(); });
-  // Each part, from large to small, is linked to the larger ones. With many parts the search tree is rebuilt only when
-  // the joined set has grown by half: nearest to the large parts is what matters.
+  // Each part, from large to small, is linked to the larger ones. With many parts the search tree is rebuilt
+  // only when the joined set has grown by half: being nearest to the large parts is sufficient.
   std::vector<int32_t> joined = parts[0];
   NearestVertex tree(mesh.positions, joined);
   size_t indexed = joined.size();

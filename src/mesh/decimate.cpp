@@ -16,17 +16,19 @@ namespace focal {
 namespace {
 
 using Positions = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
-using Indices = std::vector<unsigned>;  // three a triangle
+using Indices = std::vector<unsigned>;  // three per triangle
 
-// A large surface is first cut into slabs, which are decimated on their own, all but their borders, to a few times the
-// vertices wanted: in parallel, within the cache, and with a look at the task between them.
+// A large surface is first cut into slabs. Each is decimated on its own, except at its borders, to a few
+// times the wanted number of vertices: in parallel, within the cache, and with checks for cancellation in
+// between.
 constexpr int32_t slab_vertices = 25'000;
 constexpr int32_t slabs_from = 40'000;       // vertices
-constexpr double left_by_slabs = 8;          // times the vertices wanted
+constexpr double left_by_slabs = 8;          // times the wanted number of vertices
 constexpr int64_t chunk = int64_t{1} << 16;  // of vertices or triangles, for sums in a fixed order
 
-// Turned to its principal axes, the longest first: the decimation scales by the bounding box, so another pose of the
-// same mesh in space would lose other vertices. The first axis points to where the surface reaches farthest.
+// Rotates the mesh to its principal axes, the longest first: the decimation scales by the bounding box, so a
+// rotated mesh would otherwise lose other vertices. The first axis points to the farthest part of the
+// surface.
 Positions upright_positions(const MatrixX3& positions, const Execution& execution) {
   const int64_t n = positions.rows(), chunks = (n + chunk - 1) / chunk;
   const auto rows = [&](int64_t c) {
@@ -57,8 +59,8 @@ Indices simplify(const Indices& indices, const Positions& positions, size_t tria
   return collapse_edges(indices, positions, std::max<size_t>(triangles, 8), options);
 }
 
-// The same over the vertices that the triangles use, numbered anew by first use. scratch: -1 for each vertex of the mesh;
-// given back so.
+// Simplifies the vertices that the triangles use, renumbered by first use. scratch: -1 for each vertex of the
+// mesh; restored on return.
 Indices simplify_alone(const Indices& indices, const Positions& positions, size_t triangles, unsigned options,
                        std::vector<int32_t>& scratch) {
   std::vector<unsigned> used;
@@ -75,7 +77,7 @@ Indices simplify_alone(const Indices& indices, const Positions& positions, size_
   return kept;
 }
 
-// The slab of each triangle: as many triangles in each, in order along the first axis.
+// The slab of each triangle: equal numbers of triangles, in order along the first axis.
 std::vector<uint16_t> slab_of_triangles(const MatrixX3i& triangles, const Positions& positions, int32_t slabs,
                                         const Execution& execution) {
   constexpr int32_t steps = 1 << 14;
@@ -123,10 +125,11 @@ Indices simplify_by_slabs(const TriangleMesh& mesh, const Positions& positions, 
   return all;
 }
 
-// Collapses leave flaps here and there: two triangles back to back, hung on an edge of the surface, which so has four. Taken away, so
-// that the surface stays manifold. (Sheets that are made of such pairs, as hair is in games, are left as they are.)
+// Collapses occasionally leave flaps: two triangles back to back on an edge of the surface, which then has
+// four. Removing them keeps the surface manifold. (Sheets made of such pairs, like hair in games, are not
+// changed.)
 Indices without_flaps(const Indices& indices) {
-  constexpr size_t max_share = 50;  // of all triangles: more are sheets
+  constexpr size_t max_share = 50;  // of all triangles, as a divisor: more are sheets
   std::map<std::array<unsigned, 3>, size_t> seen;
   std::vector<bool> dropped(indices.size() / 3, false);
   size_t flaps = 0;

@@ -1,4 +1,4 @@
-// The undirected edges of a mesh with all the triangles at each, however many they are.
+// The undirected edges of a mesh with all triangles at each edge, whatever their number.
 #pragma once
 #include <span>
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace focal {
 
-// Side 3 t + i is the edge of triangle t opposite to its corner i; it runs from corner i + 1 to corner i + 2.
+// Side 3 t + i is the edge of triangle t opposite to its corner i; it goes from corner i + 1 to corner i + 2.
 inline int32_t side_from(const MatrixX3i& triangles, int32_t side) {
   return triangles(side / 3, (side + 1) % 3);
 }
@@ -15,7 +15,7 @@ inline int32_t side_to(const MatrixX3i& triangles, int32_t side) {
   return triangles(side / 3, (side + 2) % 3);
 }
 
-// Edges by their smaller, then their larger end; the sides along an edge by their number.
+// Edges sorted by their smaller, then their larger end; the sides of an edge by their number.
 struct EdgeSides {
   std::vector<int32_t> side, start{0};  // edge e: side[start[e]] .. side[start[e + 1]]
 
@@ -25,7 +25,7 @@ struct EdgeSides {
   }
 };
 
-// Linear in the triangles: by counting, then by sorting the few sides at each vertex.
+// Linear in the number of triangles: by counting, then by sorting the few sides at each vertex.
 EdgeSides edge_sides(const TriangleMesh& mesh);
 
 }  // namespace focal

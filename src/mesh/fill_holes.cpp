@@ -13,7 +13,7 @@ namespace focal {
 namespace {
 
 struct BorderEdge {
-  int32_t from = 0, to = 0;  // as the hole runs: against its triangle's direction
+  int32_t from = 0, to = 0;  // in the direction of the hole: opposite to its triangle's
 };
 
 // Edges of exactly one triangle, sorted by `from`.
@@ -29,11 +29,12 @@ std::vector<BorderEdge> border_edges(const TriangleMesh& mesh) {
   return border;
 }
 
-// Follows unused edges; where the way meets itself, a simple loop comes off. Ways that end are no loops.
+// Follows unused edges; where the path meets itself, a simple loop is split off. Paths that end are not
+// loops.
 std::vector<std::vector<int32_t>> loops_of(const std::vector<BorderEdge>& border, int32_t vertex_count) {
   std::vector<std::vector<int32_t>> loops;
   std::vector<char> used(border.size(), 0);
-  std::vector<int32_t> at_step(vertex_count, -1);  // step of the way at which a vertex was met
+  std::vector<int32_t> at_step(vertex_count, -1);  // step of the path at which a vertex was visited
   const auto unused_from = [&](int32_t v) {
     auto e = std::lower_bound(border.begin(), border.end(), v,
                               [](const BorderEdge& x, int32_t from) { return x.from < from; });
@@ -91,7 +92,7 @@ class Surroundings {
     return result;
   }
 
-  // Patches of holes that share vertices must not use an edge twice.
+  // Patches of holes that share vertices must not use the same edge.
   void remember(const HolePatch& patch, const std::vector<int32_t>& loop) {
     const auto n = static_cast<int32_t>(loop.size());
     for (const auto& corners : patch.triangles)
@@ -102,8 +103,8 @@ class Surroundings {
   }
 
  private:
-  using Numbers =
-      std::vector<std::pair<int32_t, int32_t>>;  // of the loop's vertices in the mesh and in the loop
+  // Vertex numbers in the mesh and in the loop.
+  using Numbers = std::vector<std::pair<int32_t, int32_t>>;
 
   static void take(int32_t i, int32_t w, const Numbers& number, HoleLoop& result) {
     const auto at = std::lower_bound(number.begin(), number.end(), std::pair(w, -1));
@@ -151,7 +152,7 @@ struct Additions {
   std::vector<std::array<int32_t, 3>> triangles;
 };
 
-// Numbers of the whole mesh in place of the loop's own.
+// Converts the loop's vertex numbers to those of the mesh.
 void add_patch(const HolePatch& patch, const std::vector<int32_t>& loop, int32_t mesh_vertices,
                Additions& added) {
   const auto n = static_cast<int32_t>(loop.size());

@@ -13,18 +13,19 @@
 namespace focal {
 namespace {
 
-constexpr int32_t largest_polygon =
-    120;                           // longer loops are cut in two first: the triangulation takes n^3 steps
-constexpr size_t max_inner = 300;  // the fairing solves a dense system of so many
-constexpr int max_rounds = 12;     // of refinement; each makes edges shorter by a third
-constexpr double stump_alignment = 0.5;  // mean cosine between the surface round a hole and the hole
+// Longer loops are split in two first: the triangulation takes n^3 steps.
+constexpr int32_t largest_polygon = 120;
+constexpr size_t max_inner = 300;        // the fairing solves a dense system of this size
+constexpr int max_rounds = 12;           // of refinement; each shortens edges by a third
+constexpr double stump_alignment = 0.5;  // mean cosine between the surface around a hole and the hole
 
 using Triangle = std::array<int32_t, 3>;
 using Edge = std::pair<int32_t, int32_t>;
 
 Vector3 normal_of(const Vector3& a, const Vector3& b, const Vector3& c) { return (b - a).cross(c - a); }
 
-// Bending first, area second. Sharp: two triangles folded onto each other, or a diagonal that the surface has already.
+// Bending first, area second. Sharp: two triangles folded onto each other, or a diagonal that is already an
+// edge of the surface.
 struct Weight {
   double bending = 0, area = 0;
   bool operator<(const Weight& other) const {
@@ -34,12 +35,12 @@ struct Weight {
 constexpr Weight impossible{std::numeric_limits<double>::infinity(), 0};
 
 double bending_between(const Vector3& a,
-                       const Vector3& b) {  // 0 flat .. 2 folded back; rounded, so that area decides ties
+                       const Vector3& b) {  // 0 flat .. 2 folded; rounded, so that area decides ties
   const double lengths = a.norm() * b.norm();
   return lengths > 0 ? std::round((1 - a.dot(b) / lengths) * 64) / 64 : 0;
 }
 
-// Least-weight triangulation of a polygon of loop vertices.
+// Minimum-weight triangulation of a polygon of loop vertices.
 class Polygon {
  public:
   Polygon(const HoleLoop& loop, std::vector<int32_t> corners)
@@ -69,7 +70,7 @@ class Polygon {
     return !loop_.taken.contains(std::minmax(corners_[i], corners_[k]));
   }
 
-  // Normal of what lies across the side or diagonal from i to k; zero: not known.
+  // Normal of the triangle across the side or diagonal from i to k; zero: unknown.
   Vector3 across(int32_t i, int32_t k) {
     if (k == i + 1 || (i == 0 && k == n_ - 1)) {
       const int32_t from = k == i + 1 ? corners_[i] : corners_[k],
@@ -143,7 +144,7 @@ bool triangulate(const HoleLoop& loop, std::vector<int32_t> corners, std::vector
   return true;
 }
 
-// The patch while it grows.
+// The patch during its construction.
 struct Patch {
   const HoleLoop& loop;
   std::vector<Vector3> positions;
@@ -155,7 +156,7 @@ struct Patch {
   void fair(bool is_smooth);
 };
 
-// A triangle much larger than the edges at its corners gets a vertex in its middle.
+// Inserts a vertex in the middle of each triangle that is much larger than the edges at its corners.
 bool Patch::split_large() {
   bool any = false;
   const size_t count = triangles.size();
@@ -184,10 +185,10 @@ double corner_angle(const Vector3& at, const Vector3& a, const Vector3& b) {
   return std::atan2((a - at).cross(b - at).norm(), (a - at).dot(b - at));
 }
 
-// Towards the Delaunay triangulation: the angles that see an edge sum to at most a half turn. A sweep turns each
-// triangle once at most.
+// Flips edges towards the Delaunay triangulation: the angles opposite to an edge sum to at most 180 degrees.
+// A sweep flips each triangle at most once.
 bool Patch::flip_edges() {
-  std::map<Edge, std::array<int32_t, 2>> sides;  // the triangles on an edge
+  std::map<Edge, std::array<int32_t, 2>> sides;  // the triangles at an edge
   for (size_t t = 0; t < triangles.size(); ++t)
     for (int i = 0; i < 3; ++i) {
       const auto [at, is_new] = sides.try_emplace(std::minmax(triangles[t][i], triangles[t][(i + 1) % 3]),
@@ -226,7 +227,8 @@ bool Patch::flip_edges() {
 
 using NeighbourSets = std::vector<std::set<int32_t>>;
 
-// The umbrella of each vertex of a patch, mean of its neighbours less itself: umbrella * inner positions + constant.
+// The umbrella of each vertex of a patch, mean of its neighbours minus itself: umbrella * inner positions +
+// constant.
 struct Umbrellas {
   Matrix umbrella, constant;
 };
@@ -243,7 +245,7 @@ Umbrellas umbrellas_of(const HoleLoop& loop, const std::vector<Vector3>& positio
         result.constant.row(v) += factor * positions[w].transpose();
     };
     std::vector<int32_t> patch_only;
-    for (const int32_t w : near[v]) {  // the rim itself is among the surface's neighbours already
+    for (const int32_t w : near[v]) {  // the rim itself is already among the surface's neighbours
       const bool on_rim = v < n && w < n && (w == (v + 1) % n || v == (w + 1) % n);
       if (!on_rim) patch_only.push_back(w);
     }
@@ -256,8 +258,8 @@ Umbrellas umbrellas_of(const HoleLoop& loop, const std::vector<Vector3>& positio
   return result;
 }
 
-// Smooth: inner vertices where the umbrella of the umbrellas is zero, so that the patch leaves the rim in the direction of
-// the surface. Otherwise where the umbrella is zero: a soap film.
+// Smooth: positions where the umbrella of the umbrellas is zero, so that the patch continues the surface at
+// the rim. Otherwise where the umbrella is zero: a soap film.
 void Patch::fair(bool is_smooth) {
   const auto n = static_cast<int32_t>(loop.positions.size()), all = static_cast<int32_t>(positions.size());
   const int32_t inner = all - n;
@@ -281,8 +283,9 @@ void Patch::fair(bool is_smooth) {
   for (int32_t v = 0; sane && v < inner; ++v) positions[n + v] = solution.row(v);
 }
 
-// Does the surface run across the hole, or does it end there like the stump of a limb? Smooth patches would lengthen a
-// stump by a round tip; a flat end measured better (head cut off: 1.8 instead of 3.9 edges, open 6.2).
+// Whether the surface continues across the hole, or ends there like the stump of a limb. A smooth patch would
+// extend a stump by a round tip; a flat end is more accurate (head cut off: 1.8 instead of 3.9 edges, open
+// 6.2).
 bool runs_across(const HoleLoop& loop) {
   const size_t n = loop.positions.size();
   Vector3 area = Vector3::Zero(), sum = Vector3::Zero();

@@ -1,4 +1,5 @@
-// One hole's patch: triangles over its loop, refined to the density around it and made smooth with it.
+// The patch of one hole: triangles over its loop, refined to the density around it and faired to continue the
+// surface.
 #pragma once
 #include <array>
 #include <set>
@@ -9,15 +10,15 @@
 
 namespace focal {
 
-// What the patch needs to know of the surface. Loop vertices are numbered 0 .. n-1.
+// The data of the surface that the patch needs. Loop vertices are numbered 0 .. n-1.
 struct HoleLoop {
   std::vector<Vector3> positions;
   std::vector<Vector3> outer_normal;  // unit, of the surface's triangle at the edge from vertex i to i + 1
   std::vector<Vector3> outer_sum;     // of the positions of the surface's neighbours of vertex i
-  std::vector<int32_t> outer_count;   // how many those are
+  std::vector<int32_t> outer_count;   // number of these neighbours
   std::vector<double> density;        // mean length of the surface's edges at vertex i
-  std::set<std::pair<int32_t, int32_t>>
-      taken;  // other pairs of loop vertices with an edge between them, smaller first
+  // Other pairs of loop vertices with an edge between them, smaller first.
+  std::set<std::pair<int32_t, int32_t>> taken;
 };
 
 struct HolePatch {

@@ -1,4 +1,4 @@
-// What became of a landmark: the stages that find it and the files that name it share this.
+// The result for a landmark, shared by detection and the file formats.
 #pragma once
 #include <cstdint>
 
@@ -6,7 +6,7 @@ namespace focal {
 
 enum class LandmarkStatus : int32_t { found = 0, uncertain = 1, absent = 2 };
 
-// As files have it: "found".
+// The name in files: "found".
 constexpr const char* name_of(LandmarkStatus status) {
   return status == LandmarkStatus::found       ? "found"
          : status == LandmarkStatus::uncertain ? "uncertain"

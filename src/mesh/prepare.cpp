@@ -15,7 +15,7 @@
 namespace focal {
 namespace {
 
-constexpr int32_t smallest_surface = 12;  // vertices; fewer carry no shape to learn from
+constexpr int32_t smallest_surface = 12;  // vertices; fewer do not define a shape
 
 void require_triangles(const TriangleMesh& mesh) {
   if (mesh.triangle_count() == 0)
@@ -28,16 +28,16 @@ void validate(const TriangleMesh& mesh) {
     throw Error(Status::invalid_mesh, "a vertex position is NaN or infinite",
                 "clean the mesh in the tool that made it and export it again");
   if (mesh.triangles.minCoeff() < 0 || mesh.triangles.maxCoeff() >= mesh.vertex_count())
-    throw Error(Status::invalid_mesh, "a triangle names a vertex that does not exist",
+    throw Error(Status::invalid_mesh, "a triangle index is out of range",
                 "indices run from 0 to the number of vertices - 1");
 }
 
-// What cannot be analysed.
+// Input that cannot be analysed.
 struct Invalid {
   std::vector<char> vertex, triangle;
 };
 
-// Finds it and puts something harmless in its place.
+// Finds invalid input and replaces it by harmless values.
 Invalid replace_invalid(TriangleMesh& mesh) {
   Invalid result{std::vector<char>(mesh.vertex_count(), 0), std::vector<char>(mesh.triangle_count(), 0)};
   for (int32_t v = 0; v < mesh.vertex_count(); ++v)
@@ -52,14 +52,14 @@ Invalid replace_invalid(TriangleMesh& mesh) {
   return result;
 }
 
-uint64_t mixed(
-    uint64_t x) {  // the finaliser of MurmurHash3 (A. Appleby), which spreads close numbers over a table
+// The finaliser of MurmurHash3 (A. Appleby), which spreads similar numbers over a table.
+uint64_t mixed(uint64_t x) {
   x = (x ^ (x >> 33)) * 0xff51afd7ed558ccdULL;
   x = (x ^ (x >> 33)) * 0xc4ceb9fe1a85ec53ULL;
   return x ^ (x >> 33);
 }
 
-// Per vertex the smallest number with exactly its position.
+// For each vertex the smallest number of a vertex at exactly its position.
 std::vector<int32_t> weld(const MatrixX3& positions) {
   const auto n = static_cast<int32_t>(positions.rows());
   std::vector<int32_t> first(n), table(std::bit_ceil(2 * static_cast<size_t>(n) + 1), -1);
@@ -79,8 +79,9 @@ std::vector<int32_t> weld(const MatrixX3& positions) {
   return first;
 }
 
-// The source triangles that stay, after dropping repeated corners and repeats of the same corner set. Those kept are
-// chained by their smallest corner, so that only a few are compared. invalid: others that go; empty: none.
+// The source triangles that remain after dropping those with repeated corners and duplicates of the same
+// corner set. Kept triangles are chained by their smallest corner, so that only a few are compared. invalid:
+// others to drop; empty: none.
 std::vector<int32_t> kept_triangles(const MatrixX3i& corners, int32_t vertex_count, bool drop,
                                     const std::vector<char>& invalid) {
   std::vector<int32_t> kept;
@@ -107,7 +108,7 @@ std::vector<int32_t> kept_triangles(const MatrixX3i& corners, int32_t vertex_cou
   return kept;
 }
 
-// Fills surface and the four maps; first[v] is the source vertex that stands for v.
+// Sets surface and the four maps; first[v] is the source vertex that represents v.
 void build_surface(PreparedMesh& mesh, const std::vector<int32_t>& first, const MatrixX3i& corners) {
   mesh.source_vertex.clear();
   mesh.surface_vertex.assign(mesh.source.vertex_count(), -1);
@@ -133,7 +134,7 @@ void build_surface(PreparedMesh& mesh, const std::vector<int32_t>& first, const 
   }
 }
 
-// What a surface is built of; first: per source vertex the one that stands for it.
+// Input of build_surface; first: per source vertex the one that represents it.
 struct Corners {
   std::vector<int32_t> first;
   MatrixX3i of_triangle;
@@ -147,7 +148,7 @@ void build_surface(PreparedMesh& mesh, const PrepareParams& params, const std::v
   build_surface(mesh, corners.first, corners.of_triangle);
 }
 
-// Joins borders that nearly meet; the surface is made anew.
+// Joins borders that nearly meet and rebuilds the surface.
 void stitch(PreparedMesh& mesh, const PrepareParams& params, const std::vector<char>& invalid,
             Corners& corners) {
   const std::vector<int32_t> together = stitched_borders(mesh.surface, edge_sides(mesh.surface));
@@ -164,17 +165,17 @@ void normalise(PreparedMesh& mesh) {
   const double size = (high - low).maxCoeff();
   if (!(size > 0) || !std::isfinite(size))
     throw Error(Status::invalid_mesh, "the mesh has no extent",
-                "all its vertices lie on one point, or overflow");
+                "all its vertices are at one point, or their coordinates overflow");
   positions.rowwise() -= mesh.centre.transpose();
   positions /= size;  // first to size 1: areas of meshes of size 1e-30 or 1e30 stay in range
   const double area = surface_area(mesh.surface);
   if (!(area > 1e-12))
-    throw Error(Status::invalid_mesh, "the surface has no area", "its triangles are all thinner than a line");
+    throw Error(Status::invalid_mesh, "the surface has no area", "all its triangles are degenerate");
   positions /= std::sqrt(area);
   mesh.scale = size * std::sqrt(area);
 }
 
-// Turns over what Orientation says, in the surface and for to_surface and to_source.
+// Flips triangles as Orientation requires, in the surface and for to_surface and to_source.
 void inspect(PreparedMesh& mesh) {
   const EdgeSides edges = edge_sides(mesh.surface);
   mesh.topology = topology_of(mesh.surface, edges);
@@ -192,13 +193,14 @@ void warn_of_topology(PreparedMesh& mesh) {
   };
   say(mesh.topology->nonmanifold_edges, " edge is shared by more than two triangles",
       " edges are shared by more than two triangles");
-  say(mesh.topology->nonmanifold_vertices, " vertex holds parts of the surface together in a mere point",
-      " vertices hold parts of the surface together in a mere point");
-  say(flipped_triangles(mesh), " triangle faces the wrong way; it is turned over for the analysis",
-      " triangles face the wrong way; they are turned over for the analysis");
+  say(mesh.topology->nonmanifold_vertices,
+      " vertex is non-manifold: parts of the surface meet only in this point",
+      " vertices are non-manifold: parts of the surface meet only in these points");
+  say(flipped_triangles(mesh), " triangle has the wrong orientation; it is flipped for the analysis",
+      " triangles have the wrong orientation; they are flipped for the analysis");
   if (!mesh.is_oriented)
     mesh.warnings.push_back(
-        "the triangles cannot be turned to face one way (as on a Moebius strip): left and right may be "
+        "the triangles cannot be oriented consistently (as on a Moebius strip): left and right may be "
         "mistaken");
 }
 
@@ -218,7 +220,7 @@ void warn(PreparedMesh& mesh, std::span<const MeshPiece> pieces) {
   if (mesh.topology) warn_of_topology(mesh);
 }
 
-// Takes scenery out of the triangles that are kept; the surface is made anew of the others.
+// Removes scenery from the kept triangles and rebuilds the surface from the others.
 void leave_out_scenery(const PrepareParams& params, const Corners& corners, PreparedMesh& mesh,
                        Components& components) {
   FoundScenery found = find_scenery(mesh.surface, components, mesh.source_triangle, params.pieces);
@@ -233,7 +235,7 @@ void leave_out_scenery(const PrepareParams& params, const Corners& corners, Prep
   components = components_of(mesh.surface);
 }
 
-// Whether the triangles are no body by themselves: neighbours on the body do not share edges.
+// Whether the triangles do not form a connected body: neighbours on the body need not share edges.
 bool needs_wrap(const PreparedMesh& mesh) {
   constexpr double many = 0.02;  // of all edges
   if (mesh.components > 1) return true;
@@ -241,13 +243,13 @@ bool needs_wrap(const PreparedMesh& mesh) {
          static_cast<double>(mesh.topology->nonmanifold_edges) > many * mesh.surface.vertex_count();
 }
 
-// Not to the vertex at the origin that replace_invalid made of it.
+// Removes references to the vertices at the origin that replace_invalid created.
 void forget(const std::vector<char>& invalid_vertices, PreparedMesh& mesh) {
   for (size_t v = 0; v < invalid_vertices.size(); ++v)
     if (invalid_vertices[v]) mesh.surface_vertex[v] = -1;
 }
 
-// The same point in the other numbering of its triangle's corners.
+// The same point in the other order of its triangle's corners.
 Vector3 renumbered(const PreparedMesh& mesh, int32_t surface_triangle, Vector3 barycentric) {
   if (surface_triangle >= 0 && !mesh.flipped.empty() && mesh.flipped[surface_triangle])
     std::swap(barycentric[1], barycentric[2]);

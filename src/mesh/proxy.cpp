@@ -12,13 +12,13 @@
 namespace focal {
 namespace {
 
-constexpr double cells_a_vertex = 12;  // of a wrap: small proxies need no finer one
-constexpr double worth_it = 1.1;       // a surface hardly larger than the proxy is analysed as it is
+constexpr double cells_a_vertex = 12;  // of a wrap: small proxies do not need a finer one
+constexpr double worth_it = 1.1;       // a surface hardly larger than the proxy is analysed directly
 constexpr double search_radius = 2;    // in mean edge lengths of the coarse surface
 
-// Decimation has taken more than triangles: many small parts, or a few triangles that hold all the area.
+// Whether decimation has lost more than triangles: many small parts, or a few triangles with all the area.
 bool has_collapsed(const TriangleMesh& coarse, int32_t vertices) {
-  return coarse.vertex_count() < 0.25 * vertices || surface_area(coarse) < 0.5;  // of area 1 before
+  return coarse.vertex_count() < 0.25 * vertices || surface_area(coarse) < 0.5;  // the original area is 1
 }
 
 Vector3 normal_of(const TriangleMesh& mesh, int32_t t) {

@@ -21,7 +21,7 @@ double distance_to(const TriangleMesh& mesh, int32_t t, const Vector3& origin, c
   return ac.dot(other) / determinant;
 }
 
-// Where the ray enters the box, infinite where it passes by.
+// Distance at which the ray enters the box, infinite if it misses.
 double entry(const Eigen::AlignedBox3d& box, const Vector3& origin, const Vector3& direction,
              double farthest) {
   constexpr double never = std::numeric_limits<double>::infinity();

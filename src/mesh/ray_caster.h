@@ -1,4 +1,4 @@
-// What a ray meets first, on a mesh that is asked often.
+// First intersections of rays with a mesh, for many rays per mesh.
 #pragma once
 #include <limits>
 #include <utility>
@@ -8,17 +8,17 @@
 
 namespace focal {
 
-// It keeps its own copy of the mesh.
+// Keeps its own copy of the mesh.
 class RayCaster {
  public:
   explicit RayCaster(TriangleMesh mesh, const Execution& execution = Execution().inner())
       : mesh_(std::move(mesh)), tree_(mesh_, execution) {}
 
   struct Hit {
-    double distance = std::numeric_limits<double>::infinity();  // in lengths of the ray's direction
+    double distance = std::numeric_limits<double>::infinity();  // in multiples of the direction's length
     int32_t triangle = -1;
   };
-  // The first triangle that origin + distance * direction meets, from either side, at 0 < distance < farthest.
+  // The first triangle that origin + distance * direction hits, from either side, at 0 < distance < farthest.
   // Thread-safe. T. Möller, B. Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997.
   Hit first_hit(const Vector3& origin, const Vector3& direction,
                 double farthest = std::numeric_limits<double>::infinity()) const;

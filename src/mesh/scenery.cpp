@@ -13,7 +13,7 @@ namespace {
 
 constexpr size_t max_candidates = 64, max_samples = 20000;
 constexpr double convex = 0.95;    // share of the area, see ConvexBody
-constexpr int32_t max_rounds = 4;  // each may free the view on more: a ground below a helper far away
+constexpr int32_t max_rounds = 4;  // each may expose more: a ground below a distant helper
 
 struct Part {
   std::vector<int32_t> triangles;
@@ -21,7 +21,7 @@ struct Part {
   int32_t vertex_count = 0;
   int32_t piece = -1;         // of its first triangle; others may be welded to it
   bool is_character = false;  // never scenery
-  bool is_sheet = false;      // large and flat: maybe scenery, so no measure of what else is
+  bool is_sheet = false;      // large and flat: possibly scenery, so not used to measure other parts
   std::optional<SceneryKind> found;
 
   bool counts() const { return !found && !is_sheet; }
@@ -29,7 +29,7 @@ struct Part {
 };
 
 using Group = std::vector<int32_t>;  // numbers of parts
-using Mask = std::vector<char>;      // one a part
+using Mask = std::vector<char>;      // one per part
 
 class SceneryFinder {
  public:
@@ -110,9 +110,9 @@ double SceneryFinder::vertices_of(const Group& group) const {
   return count;
 }
 
-// The parts of one piece together, and each part alone; the largest of them, large ones first.
+// All parts of one piece together, and each part alone; the largest of them, in descending order.
 std::vector<Group> SceneryFinder::candidates() const {
-  constexpr double large = 0.25;  // of all that is not found yet
+  constexpr double large = 0.25;  // of everything not found so far
   std::vector<Group> of_piece(std::max<size_t>(pieces_.size(), 1)), result;
   for (size_t p = 0; p < parts_.size(); ++p) {
     if (!parts_[p].may_be_scenery()) continue;
@@ -157,7 +157,8 @@ std::vector<int32_t> SceneryFinder::samples_of_rest(const Mask& group) const {
   return result;
 }
 
-// Wings and capes are sheets too: what is left out must reach beyond all else, lie on one side of it and be far larger.
+// Wings and capes are sheets too: a sheet to leave out must extend beyond everything else, be on one side of
+// it and be much larger.
 bool SceneryFinder::is_ground_or_backdrop(const Group& group, const FlatSheet& sheet) const {
   constexpr double covered = 0.97, slack = 0.02, wrong_side = 0.05, min_height = 0.05;
   constexpr double larger = 4, ground_larger = 1.5, horizontal = 0.99;
@@ -179,7 +180,7 @@ bool SceneryFinder::is_ground_or_backdrop(const Group& group, const FlatSheet& s
   const auto inside = std::count_if(
       rest.begin(), rest.end(), [&](int32_t v) { return covers(sheet, surface_.positions.row(v), margin); });
   const bool lies = std::abs(sheet.normal.y()) > horizontal;
-  if (lies && (sheet.normal.y() > 0) != (above > below)) return false;  // over the character, as a hat is
+  if (lies && (sheet.normal.y() > 0) != (above > below)) return false;  // above the character, like a hat
   const double area = polygon_area(convex_outline(std::move(shadow)));
   return static_cast<double>(inside) >= covered * count && high - low >= min_height * box.diagonal() &&
          static_cast<double>(std::min(above, below)) <= wrong_side * count &&
@@ -201,9 +202,9 @@ bool SceneryFinder::find_sheets() {
   return mark(found, SceneryKind::sheet);
 }
 
-// Limbs stuck into a round body fall apart without it; a character in a dome does not.
+// Limbs attached to a round body are separate without it; a character in a dome is not.
 bool SceneryFinder::hangs_together(const Group& rest, double size) const {
-  constexpr double touching = 0.05, most = 0.8;  // of the size
+  constexpr double touching = 0.05, most = 0.8;  // relative to the size
   if (rest.empty()) return false;
   const auto main = *std::max_element(rest.begin(), rest.end(), [&](int32_t a, int32_t b) {
     return parts_[a].box.diagonal() < parts_[b].box.diagonal();
@@ -234,7 +235,7 @@ bool SceneryFinder::encloses_character(const Group& group) const {
   const auto inside = static_cast<double>(std::count_if(
       samples.begin(), samples.end(), [&](int32_t v) { return body.contains(surface_.positions.row(v)); }));
   const auto count = static_cast<double>(samples.size());
-  // Eyes in a round body are small, and they show.
+  // Eyes in a round body are small and visible.
   const bool is_simple = vertices_of(group) <= simple * vertices_of(rest) && inside >= max_inside * count &&
                          rest_size >= same_size * size;
   const bool is_around = size >= larger * rest_size && inside >= all_inside * count;
@@ -255,7 +256,8 @@ bool SceneryFinder::mark(const std::vector<Group>& groups, SceneryKind kind) {
   return !groups.empty();
 }
 
-// What surely is character; else the part with the most vertices, a convex one only where the eight largest are.
+// Parts that are certainly the character; otherwise the part with the most vertices, a convex one only if the
+// eight largest are.
 Group SceneryFinder::surely_character() const {
   constexpr size_t most = 8;
   Group parts = rest_of(Mask(parts_.size(), 0)), sure;
@@ -269,9 +271,9 @@ Group SceneryFinder::surely_character() const {
   return {body == parts.end() ? parts.front() : *body};
 }
 
-// The parts nearer to the character than its own size, step by step.
+// The parts nearer to the character than its own size, found iteratively.
 Group SceneryFinder::joined_to(Group joined) const {
-  constexpr double far = 0.75;  // of the size of what is joined, or of the largest part
+  constexpr double far = 0.75;  // relative to the size of the joined parts, or of the largest part
   Group others = rest_of(mask_of(joined));
   double largest = 0;
   for (const int32_t p : others) largest = std::max(largest, parts_[p].box.diagonal());
@@ -291,10 +293,10 @@ bool SceneryFinder::is_convex(int32_t part) const {
   return convex_body(surface_, parts_[part].triangles).share >= convex;
 }
 
-// A single convex thing beside the character, nothing like it elsewhere: hands that float come in pairs.
+// A single convex object beside the character without a similar one elsewhere: floating hands come in pairs.
 Group SceneryFinder::lone_helpers(const Group& joined) const {
   constexpr double far = 0.35, small = 0.5, alike = 0.02;
-  constexpr size_t many = 1000;  // each is compared with each
+  constexpr size_t many = 1000;  // all pairs are compared
   Group result;
   if (joined.size() < 2 || joined.size() > many) return result;
   for (const int32_t p : joined) {
@@ -321,7 +323,7 @@ bool SceneryFinder::find_apart() {
   const Group joined = joined_to(start);
   Group apart = rest_of(mask_of(joined)), bodies = apart;
   if (!is_convex(start[0])) std::erase_if(bodies, [&](int32_t p) { return is_convex(p); });
-  if (vertices_of(bodies) >= vertices_of(joined)) return false;  // nobody knows which is the character
+  if (vertices_of(bodies) >= vertices_of(joined)) return false;  // ambiguous: unknown which is the character
   std::erase_if(apart, [&](int32_t p) { return !parts_[p].may_be_scenery(); });
   const Group lone = lone_helpers(joined);
   apart.insert(apart.end(), lone.begin(), lone.end());
@@ -364,7 +366,7 @@ FoundScenery SceneryFinder::find() {
     changed |= find_apart();
     if (!changed) break;
   }
-  for (Part& part : parts_) part.is_sheet = false;  // those that stay may stand apart
+  for (Part& part : parts_) part.is_sheet = false;  // kept sheets may be apart
   find_apart();
   return leaves_character() ? result() : FoundScenery{};
 }
@@ -376,7 +378,7 @@ const char* reason(SceneryKind kind) {
     case SceneryKind::enclosure:
       return "a convex shape that contains most of the character";
     case SceneryKind::apart:
-      return "it stands apart from the character";
+      return "separate from the character";
   }
   return "";
 }

@@ -34,7 +34,7 @@ std::vector<int32_t> vertices_of(const TriangleMesh& mesh, std::span<const int32
   return result;
 }
 
-// The mean of the vertices, and the directions in which they spread: least first.
+// The mean of the vertices, and their principal directions: smallest spread first.
 void fit_plane(const TriangleMesh& mesh, std::span<const int32_t> vertices, FlatSheet& sheet) {
   sheet.centre.setZero();
   for (const int32_t v : vertices) sheet.centre += mesh.positions.row(v).transpose();
@@ -45,7 +45,7 @@ void fit_plane(const TriangleMesh& mesh, std::span<const int32_t> vertices, Flat
   if (!(size > 0)) return;
   Matrix3 spread = Matrix3::Zero();
   for (const int32_t v : vertices) {
-    const Vector3 from = (mesh.positions.row(v).transpose() - sheet.centre) / size;  // squares stay in range
+    const Vector3 from = (mesh.positions.row(v).transpose() - sheet.centre) / size;  // keeps squares in range
     spread += from * from.transpose();
   }
   const Eigen::SelfAdjointEigenSolver<Matrix3> solver(spread);
@@ -148,7 +148,7 @@ ConvexBody convex_body(const TriangleMesh& mesh, std::span<const int32_t> triang
     total += area;
     if (most - own <= tolerance) {
       body.sides.push_back({normal, most}), supporting += area;
-    } else if (own - least <= tolerance) {  // seen from inside, as a dome's triangles are
+    } else if (own - least <= tolerance) {  // seen from inside, like the triangles of a dome
       body.sides.push_back({-normal, -least}), supporting += area;
     }
   }

@@ -1,4 +1,4 @@
-// The two shapes that scenery has: a flat sheet and a convex body.
+// The two shapes of scenery: a flat sheet and a convex body.
 #pragma once
 #include <optional>
 #include <span>
@@ -16,7 +16,7 @@ struct FlatSheet {
   double outline_area = 0;
 };
 
-// Nothing unless the triangles are flat (2 % of their smaller width) and fill their convex outline.
+// Empty unless the triangles are flat (2 % of their smaller width) and fill their convex outline.
 std::optional<FlatSheet> flat_sheet(const TriangleMesh& mesh, std::span<const int32_t> triangles);
 
 double polygon_area(std::span<const Eigen::Vector2d> polygon);
@@ -24,7 +24,7 @@ double polygon_area(std::span<const Eigen::Vector2d> polygon);
 std::vector<Eigen::Vector2d> convex_outline(std::vector<Eigen::Vector2d> points);
 
 Eigen::Vector2d on_sheet(const FlatSheet& sheet, const Vector3& point);
-// margin: a length by which the point may lie outside.
+// margin: a distance by which the point may be outside.
 bool covers(const FlatSheet& sheet, const Vector3& point, double margin);
 
 struct HalfSpace {
@@ -35,12 +35,12 @@ struct HalfSpace {
 struct ConvexBody {
   std::vector<HalfSpace> sides;
   Box box;
-  double share = 0;  // of the area: triangles with all of the shape on one side; 1: convex
+  double share = 0;  // of the area: triangles with the whole shape on one side; 1: convex
 
   bool contains(const Vector3& point) const;
 };
 
-// By a few hundred of the triangles.
+// Estimated from a few hundred of the triangles.
 ConvexBody convex_body(const TriangleMesh& mesh, std::span<const int32_t> triangles);
 
 }  // namespace focal

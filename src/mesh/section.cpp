@@ -10,9 +10,10 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// The largest ball inside that touches the surface at a point: J. Ma, S. W. Bae, S. Choi, "3D medial axis point approximation
-// using nearest neighbors and the normal field", 2012. Vertices seen from its centre within 40 degrees of the point count as
-// the point's own surroundings, which noise would let shrink the ball. Returns its radius.
+// Radius of the largest ball inside that touches the surface at a point: J. Ma, S. W. Bae, S. Choi, "3D
+// medial axis point approximation using nearest neighbors and the normal field", 2012. Vertices within 40
+// degrees of the point, seen from the ball's centre, count as the point's own neighbourhood; otherwise noise
+// would shrink the ball.
 double inscribed_radius(const TriangleMesh& mesh, const Vector3& point, const Vector3& inward,
                         double radius) {
   const double own_surroundings = std::cos(40 * pi / 180);
@@ -35,14 +36,14 @@ double inscribed_radius(const TriangleMesh& mesh, const Vector3& point, const Ve
   return radius;
 }
 
-// Even directions all round (a Fibonacci lattice).
+// Evenly distributed directions (a Fibonacci lattice).
 Vector3 direction_of(int index, int count) {
   const double z = 1 - (2 * index + 1.0) / count, turn = index * pi * (3 - std::sqrt(5.0)),
                r = std::sqrt(1 - z * z);
   return {r * std::cos(turn), r * std::sin(turn), z};
 }
 
-// The way the body is longest round a point inside.
+// The direction of the longest extent of the body around a point inside it.
 Vector3 long_axis(const RayCaster& surface, const Vector3& centre, double most) {
   constexpr int count = 128;
   Matrix3 moment = Matrix3::Zero();
@@ -54,7 +55,7 @@ Vector3 long_axis(const RayCaster& surface, const Vector3& centre, double most) 
   return Eigen::SelfAdjointEigenSolver<Matrix3>(moment).eigenvectors().col(2);
 }
 
-// Of the part of the plane through a point that is seen from it inside the body.
+// Centroid of the part of the plane through a point that is visible from it inside the body.
 Vector3 centroid_across(const RayCaster& surface, const Vector3& centre, const Vector3& axis, double most) {
   constexpr int count = 32;
   const Vector3 u = axis.unitOrthogonal(), v = axis.cross(u);
@@ -93,11 +94,12 @@ Vector3 section_centre(const RayCaster& surface, const Vector3& point, const Vec
   const Vector3 inward = -outward;
   const MatrixX3& positions = surface.mesh().positions;
   const double size = (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).norm();
-  // No wider than the way through the body, which vertices far apart do not show.
+  // Not wider than the extent through the body, which vertices far apart do not show.
   const double skin = 1e-3 * size;
   const double through = surface.first_hit(point + skin * inward, inward, size).distance;
   const double radius = inscribed_radius(surface.mesh(), point, inward, through / 2);
-  const double longest = 6 * radius, widest = 3 * radius;  // farther is another part, or out through a hole
+  const double longest = 6 * radius,
+               widest = 3 * radius;  // farther hits are another part, or outside through a hole
   Vector3 centre = point + radius * inward;
   for (int round = 0; round < 3; ++round)
     centre = centroid_across(surface, centre, long_axis(surface, centre, longest), widest);

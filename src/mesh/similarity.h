@@ -12,12 +12,12 @@ struct Similarity {
   double scale = 1;
   Matrix3 rotation = Matrix3::Identity();
   Vector3 offset = Vector3::Zero();
-  double residual = 0;  // root mean square of what is left, in units of `to`
+  double residual = 0;  // root mean square of the remaining distances, in units of `to`
 
   Vector3 operator()(const Vector3& p) const { return scale * (rotation * p) + offset; }
 };
 
-// The similarity that carries the rows of `from` nearest to those of `to`, each counting by its weight (>= 0, not all 0).
+// The similarity that best maps the rows of `from` to those of `to`, weighted (>= 0, not all 0).
 Similarity fit_similarity(const MatrixX3& from, const MatrixX3& to, const Vector& weight);
 
 }  // namespace focal

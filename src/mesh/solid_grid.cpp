@@ -11,11 +11,11 @@
 namespace focal {
 namespace {
 
-constexpr int32_t rim = 3;        // empty cells round the mesh
+constexpr int32_t rim = 3;        // empty cells around the mesh
 constexpr uint8_t min_votes = 4;  // of six rays
 
-// Whether p lies left of the line from a to b; computed the same for both triangles at an edge, so that no line passes between
-// them or meets both.
+// Whether p is left of the line from a to b; computed identically for both triangles at an edge, so that no
+// ray passes between them or hits both.
 bool is_left(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& p) {
   const bool swapped = b.x() < a.x() || (b.x() == a.x() && b.y() < a.y());
   const Eigen::Vector2d& low = swapped ? b : a;
@@ -24,7 +24,8 @@ bool is_left(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Ve
   return left != swapped;
 }
 
-// Calls visit(column, row) for the points of the integer grid within a triangle of the plane, whichever way it turns.
+// Calls visit(column, row) for the points of the integer grid within a triangle of the plane, of either
+// orientation.
 template <class Visit>
 void visit_within(const std::array<Eigen::Vector2d, 3>& t, const Visit& visit) {
   const double area = (t[1] - t[0]).x() * (t[2] - t[0]).y() - (t[1] - t[0]).y() * (t[2] - t[0]).x();
@@ -64,14 +65,15 @@ void SolidGrid::choose_grid(const TriangleMesh& mesh) {
   for (;; cell_ *= 1.02) {
     count = 1;
     for (int a = 0; a < 3; ++a) {
-      // The longest side often has a whole number of cells: no rounding of it may add one, which would move the lattice by half.
+      // The longest side often has a whole number of cells: rounding must not add a cell, which would move
+      // the lattice by half a cell.
       size_[a] = static_cast<int32_t>(std::ceil(extent[a] / cell_ - 0.01)) + 2 * rim + 1;
       count *= size_[a];
     }
     if (count <= max_cells) break;
   }
   step_ = {1, size_[0], static_cast<int64_t>(size_[0]) * size_[1]};
-  // The lattice is off the planes on which modellers put vertices and edges.
+  // The lattice avoids the planes on which modellers place vertices and edges.
   const Vector3 slack = cell_ * Vector3(size_[0] - 1, size_[1] - 1, size_[2] - 1) - extent;
   origin_ = low - slack / 2 + cell_ * Vector3(0.0137, 0.0171, 0.0193);
   solid_.assign(static_cast<size_t>(step_[2]) * size_[2], 0);
@@ -132,7 +134,7 @@ SolidGrid::Lines SolidGrid::cast_lines(const TriangleMesh& mesh, int axis) const
   return lines;
 }
 
-// Two rays a cell along the axis: each says how often it leaves more than it enters.
+// Two rays per cell along the axis: each votes by whether it leaves more often than it enters.
 void SolidGrid::vote(int axis, std::vector<uint8_t>& votes) const {
   votes.assign(solid_.size(), 0);
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
@@ -181,7 +183,7 @@ void SolidGrid::fill_unreached(const std::vector<uint8_t>& blocked) {
     reached[i] = 1;
     open.push_back(i);
   };
-  // The outermost layer stands for what lies beyond: paths start in the next and never enter it.
+  // The outermost layer represents the outside: paths start in the next layer and never enter it.
   for (int32_t z = 0; z < size_[2]; ++z)
     for (int32_t y = 0; y < size_[1]; ++y) {
       const bool at_rim = z == 0 || z + 1 == size_[2] || y == 0 || y + 1 == size_[1];
@@ -203,9 +205,10 @@ void SolidGrid::fill_unreached(const std::vector<uint8_t>& blocked) {
   for (size_t i = 0; i < solid_.size(); ++i) solid_[i] |= !reached[i];
 }
 
-// Triangles with nothing solid on either side: cells that they pass through.
+// Triangles without a solid on either side: marks the cells that they pass through.
 void SolidGrid::add_sheets(const TriangleMesh& mesh) {
-  constexpr double spacing = 0.6, beside = 0.75;  // of samples, and of where a solid would be; in cells
+  constexpr double spacing = 0.6,
+                   beside = 0.75;  // of samples, and of the position where a solid would be; in cells
   std::vector<int64_t> added;
   const auto cell_at = [&](const Vector3& p) {
     return index(static_cast<int32_t>(std::lround(p.x())), static_cast<int32_t>(std::lround(p.y())),
@@ -256,7 +259,7 @@ std::optional<double> SolidGrid::crossing(int64_t i, int axis, bool starts_solid
   return result;
 }
 
-// A part number for each cell, -1 for empty ones; cells that share a face belong together.
+// A component number for each cell, -1 for empty ones; cells that share a face are connected.
 std::vector<int32_t> SolidGrid::label_parts(std::vector<int64_t>& sizes) const {
   std::vector<int32_t> part(solid_.size(), -1);
   std::vector<int64_t> open;
@@ -279,7 +282,7 @@ std::vector<int32_t> SolidGrid::label_parts(std::vector<int64_t>& sizes) const {
 }
 
 void SolidGrid::join_parts(int32_t& bridged, int32_t& left_out) {
-  constexpr double far = 0.08, small = 0.02;  // of the longest side, of the largest part
+  constexpr double far = 0.08, small = 0.02;  // relative to the longest side and to the largest part
   std::vector<int64_t> sizes;
   const std::vector<int32_t> part = label_parts(sizes);
   if (sizes.size() < 2) return;
@@ -341,7 +344,8 @@ void SolidGrid::join_parts(int32_t& bridged, int32_t& left_out) {
 
 namespace {
 
-// For each pattern of a cube's solid corners, those to fill so that no two of one kind touch in a mere edge or corner.
+// For each pattern of a cube's solid corners, the corners to fill so that no two of one kind touch only at an
+// edge or corner.
 std::array<uint8_t, 256> fillings() {
   std::array<uint8_t, 256> result{};
   const auto has = [](int bits, int k) { return ((bits >> k) & 1) != 0; };

@@ -1,4 +1,5 @@
-// Which cells of a regular grid belong to the solid that triangles enclose, and where the grid's edges meet the triangles.
+// The cells of a regular grid inside the solid that triangles enclose, and the intersections of the grid's
+// edges with the triangles.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -12,13 +13,14 @@ namespace focal {
 
 class SolidGrid {
  public:
-  // cell: its length, which grows where there would be too many. A few layers of cells at the rim are empty.
+  // cell: edge length, increased where there would be too many cells. A few layers of cells at the rim are
+  // empty.
   SolidGrid(const TriangleMesh& mesh, double cell, const Execution& execution);
 
-  // Joins floating parts to the nearest other one and leaves out small ones far from everything else.
+  // Joins floating parts to the nearest other one and drops small ones far from everything else.
   void join_parts(int32_t& bridged, int32_t& left_out);
-  // Fills cells until the surface between the two kinds of cell is a manifold: where cells of one kind would touch in a mere edge
-  // or corner.
+  // Fills cells until the surface between the two kinds of cell is a manifold, that is where cells of one
+  // kind would touch only at an edge or corner.
   void make_manifold();
   void fill_cavities();  // cells that no path of empty ones reaches from outside
 
@@ -33,20 +35,20 @@ class SolidGrid {
     return (corner & 1) + ((corner >> 1) & 1) * step_[1] + (corner >> 2) * step_[2];
   }
   bool is_solid(int64_t i) const { return solid_[i] != 0; }
-  // One bit a corner of the cube whose lowest cell is i.
+  // One bit per corner of the cube whose lowest cell is i.
   int corners(int64_t i) const {
     int bits = 0;
     for (int k = 0; k < 8; ++k) bits |= (solid_[i + offset(k)] != 0) << k;
     return bits;
   }
-  // The lowest cells of cubes of eight that hold both kinds, ascending.
+  // The lowest cells of cubes of eight that contain both kinds, ascending.
   std::vector<int64_t> mixed_cubes() const;
-  // Where the edge from the centre of cell i to the next along the axis meets a triangle, 0..1; of several the one next to the
-  // empty end. Empty: none does.
+  // Position 0..1 at which the edge from the centre of cell i to the next along the axis crosses a triangle;
+  // of several the one nearest to the empty end. Empty: no crossing.
   std::optional<double> crossing(int64_t i, int axis, bool starts_solid) const;
 
  private:
-  // Where lines through the cells' centres along one axis meet triangles, sorted along each line.
+  // Intersections of lines through the cells' centres along one axis with triangles, sorted along each line.
   struct Crossing {
     float at;      // in cells, from the centre of the first
     int8_t exits;  // 1: the triangle faces along the axis, -1: against it

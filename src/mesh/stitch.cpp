@@ -11,7 +11,7 @@ namespace focal {
 namespace {
 
 constexpr double nearly_meets = 2e-4;    // of the diagonal: 0.4 mm of a person
-constexpr double min_edges_kept = 0.25;  // of the shortest edge at a vertex
+constexpr double min_edges_kept = 0.25;  // relative to the shortest edge at a vertex
 
 Vector3 place_of(const MatrixX3& positions, int32_t v) { return positions.row(v).transpose(); }
 
@@ -19,7 +19,7 @@ double diagonal_of(const MatrixX3& positions) {
   return (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).norm();
 }
 
-// Per vertex of a border the length of its shortest edge; 0: it lies on no border.
+// For each vertex of a border the length of its shortest edge; 0: not on a border.
 std::vector<double> shortest_edges_of_borders(const TriangleMesh& mesh, const EdgeSides& edges) {
   std::vector<double> shortest(static_cast<size_t>(mesh.vertex_count()),
                                std::numeric_limits<double>::infinity());
@@ -59,7 +59,7 @@ std::vector<int32_t> first_at_place(const MatrixX3& positions, double tolerance)
   std::vector<int32_t> first(static_cast<size_t>(positions.rows()));
   for (int32_t v = 0; v < positions.rows(); ++v) {
     const Vector3 p = place_of(positions, v);
-    // From the box's corner: a place far from the origin would be no int.
+    // Relative to the box's corner: a position far from the origin would overflow int.
     const Eigen::Vector3i cell = ((p - box.low) / (2 * tolerance)).array().floor().cast<int>();
     first[v] = v;
     for (int corner = 0; corner < 27 && first[v] == v; ++corner) {

@@ -1,4 +1,5 @@
-// Borders of parts that were made to meet and do not quite: exporters round, and artists leave a tenth of a millimetre.
+// Joins borders that were meant to meet: exporters round coordinates, and artists leave gaps of a tenth of a
+// millimetre.
 #pragma once
 #include <vector>
 
@@ -6,11 +7,12 @@
 
 namespace focal {
 
-// Per vertex the first one that is nearer than the tolerance, itself where there is none.
+// For each vertex the first one nearer than the tolerance, or itself.
 std::vector<int32_t> first_at_place(const MatrixX3& positions, double tolerance);
 
-// Per vertex the one that stands for it where open borders nearly meet: nearer than 2e-4 of the box's diagonal, and than a quarter of
-// every edge at the two, so that no edge shrinks to nothing. Empty where no borders do.
+// For each vertex the one that represents it where open borders nearly meet: closer than 2e-4 of the box's
+// diagonal, and than a quarter of every edge at the two, so that no edge degenerates. Empty where no borders
+// nearly meet.
 std::vector<int32_t> stitched_borders(const TriangleMesh& mesh, const EdgeSides& edges);
 
 }  // namespace focal

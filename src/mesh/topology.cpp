@@ -7,7 +7,7 @@
 namespace focal {
 namespace {
 
-constexpr double negligible_share = 0.01;   // of the area, that may lie in one-sided patches
+constexpr double negligible_share = 0.01;   // of the area that may be in one-sided patches
 constexpr double negligible_volume = 1e-6;  // of area^1.5: two sheets back to back enclose nothing
 
 class UnionFind {
@@ -30,7 +30,7 @@ class UnionFind {
 int32_t corner_from(int32_t side) { return side - side % 3 + (side + 1) % 3; }
 int32_t corner_to(int32_t side) { return side - side % 3 + (side + 2) % 3; }
 
-// Corners joined over the edges at them: the roots are the fans of triangles round the vertices.
+// Corners connected by the edges at them: the roots are the triangle fans around the vertices.
 UnionFind fans_of(const MatrixX3i& triangles, const EdgeSides& edges) {
   UnionFind fans(static_cast<size_t>(triangles.size()));
   for (int32_t e = 0; e < edges.edge_count(); ++e) {
@@ -56,7 +56,7 @@ int64_t vertices_of_several_fans(const TriangleMesh& mesh, UnionFind& fans) {
   return count;
 }
 
-// Edges of one triangle, joined in the fans they border.
+// Boundary edges, connected through the fans that they bound.
 int64_t count_loops(const EdgeSides& edges, UnionFind& fans) {
   std::vector<int32_t> border;
   for (int32_t e = 0; e < edges.edge_count(); ++e)
@@ -73,7 +73,7 @@ struct Patch {
   int64_t triangles = 0, reversed = 0;
   double area = 0, volume = 0;
 
-  bool is_turned_over() const {  // as a whole, once its triangles agree
+  bool is_turned_over() const {  // as a whole, once its triangles are consistent
     const double enclosed = is_closed ? volume : 0;
     if (std::abs(enclosed) > negligible_volume * std::pow(area, 1.5)) return enclosed < 0;
     return 2 * reversed > triangles;
@@ -125,7 +125,7 @@ class Orienter {
     }
   }
 
-  // Closed: along every edge as many of its triangles run one way as the other.
+  // Closed: every edge has as many triangles in one direction as in the other.
   void find_open_patches() {
     const auto direction = [&](int32_t side) {
       const bool up = side_from(mesh_.triangles, side) < side_to(mesh_.triangles, side);
@@ -174,7 +174,7 @@ class Orienter {
   const TriangleMesh& mesh_;
   const EdgeSides& edges_;
   std::vector<int32_t> twin_, patch_of_;
-  std::vector<char> reversed_;  // against the first triangle of its patch
+  std::vector<char> reversed_;  // relative to the first triangle of its patch
   std::vector<Patch> patches_;
 };
 

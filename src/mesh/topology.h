@@ -1,4 +1,4 @@
-// How the triangles of a mesh hang together, and which of them must be turned over for neighbours to face the same way.
+// Connectivity of a mesh, and the triangles to flip for a consistent orientation.
 #pragma once
 #include <vector>
 
@@ -8,21 +8,22 @@ namespace focal {
 
 struct Topology {
   int64_t nonmanifold_edges = 0;     // of more than two triangles
-  int64_t nonmanifold_vertices = 0;  // where parts of the surface meet in nothing but a point
+  int64_t nonmanifold_vertices = 0;  // parts of the surface meet only in this point
   int64_t boundary_loops = 0;        // connected curves of edges of one triangle: holes, open ends
 };
 Topology topology_of(const TriangleMesh& mesh, const EdgeSides& edges);
 
 struct Orientation {
-  std::vector<char> flipped;  // per triangle: to be turned over
+  std::vector<char> flipped;  // per triangle: to be flipped
   int64_t flips = 0;
-  // False where more than a hundredth of the area lies in patches that no turning makes consistent (a Moebius strip).
-  // Their triangles stay as they are.
+  // False where more than a hundredth of the area is in patches without a consistent orientation (a Moebius
+  // strip). Their triangles are not flipped.
   bool is_consistent = true;
 };
 
-// A patch is what edges of exactly two triangles connect. In each, all triangles are made to agree; a closed patch is
-// turned to enclose a positive volume, an open one to where most of its triangles faced.
+// A patch is connected by edges of exactly two triangles. All triangles of a patch get a consistent
+// orientation: a closed patch encloses a positive volume, an open one keeps the orientation of most of its
+// triangles.
 Orientation consistent_orientation(const TriangleMesh& mesh, const EdgeSides& edges);
 
 }  // namespace focal

@@ -1,4 +1,4 @@
-// Points and triangles, nothing else.
+// A plain triangle mesh.
 #pragma once
 #include "base/matrix.h"
 
@@ -23,7 +23,7 @@ double mean_edge_length(const TriangleMesh& mesh);  // over the undirected edges
 Vector3 position_of(const TriangleMesh& mesh, const SurfacePoint& point);
 int32_t nearest_corner(const TriangleMesh& mesh, const SurfacePoint& point);  // its vertex
 
-// n x 3: twice the area of the triangles round each vertex, along their mean normal.
+// n x 3: twice the area of the triangles around each vertex, along their mean normal.
 MatrixX3 area_normals(const TriangleMesh& mesh);
 
 // Undirected edges, each once, smaller index first, sorted; row e is (a, b).

@@ -7,7 +7,7 @@ namespace focal {
 namespace {
 
 constexpr int32_t leaf_size = 4;
-constexpr int32_t long_work = 1 << 14;  // triangles; a millisecond or so
+constexpr int32_t long_work = 1 << 14;  // triangles; about a millisecond
 
 }  // namespace
 

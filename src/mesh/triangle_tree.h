@@ -1,4 +1,4 @@
-// A hierarchy of boxes round the triangles of a mesh, halved at the median, for meshes that are asked often.
+// A bounding-box hierarchy over the triangles of a mesh, split at the median, for many queries per mesh.
 #pragma once
 #include <limits>
 #include <utility>
@@ -13,8 +13,8 @@ class TriangleTree {
  public:
   explicit TriangleTree(const TriangleMesh& mesh, const Execution& execution = Execution().inner());
 
-  // Calls visit(triangle) for those that may matter, near ones first. least(box): the least distance, in any unit, that a
-  // triangle in it can have, infinite: none has one; most(): what a triangle must reach to matter still.
+  // Calls visit(triangle) for candidates, near ones first. least(box): lower bound, in any unit, for a
+  // triangle in the box, infinite: none is possible; most(): the current upper bound.
   template <class Least, class Most, class Visit>
   void search(const Least& least, const Most& most, const Visit& visit) const;
 
@@ -22,7 +22,8 @@ class TriangleTree {
   struct Node {
     Eigen::AlignedBox3d box;
     int32_t first = 0,
-            count = 0;  // of order_; count 0: an inner node, whose halves are the next node and `second`
+            // Of order_; count 0: an inner node, whose halves are the next node and `second`.
+        count = 0;
     int32_t second = 0;
   };
   int32_t build(int32_t first, int32_t count, const TriangleMesh& mesh, const MatrixX3& centres,
@@ -36,7 +37,7 @@ template <class Least, class Most, class Visit>
 void TriangleTree::search(const Least& least, const Most& most, const Visit& visit) const {
   if (nodes_.empty()) return;
   std::pair<double, int32_t> open[64] = {
-      {least(nodes_[0].box), 0}};  // halving: far fewer levels than that for 2^31 triangles
+      {least(nodes_[0].box), 0}};  // halving: far fewer levels for 2^31 triangles
   for (int depth = 1; depth > 0;) {
     const auto [distance, at] = open[--depth];
     if (distance > most() || distance == std::numeric_limits<double>::infinity()) continue;

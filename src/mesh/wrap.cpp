@@ -11,7 +11,7 @@
 namespace focal {
 namespace {
 
-// Corner k of a cube of cells lies at (k & 1, k >> 1 & 1, k >> 2).
+// Corner k of a cube of cells is at (k & 1, k >> 1 & 1, k >> 2).
 constexpr std::array<std::array<int, 2>, 12> cube_edges = {{{0, 1},
                                                             {2, 3},
                                                             {4, 5},
@@ -25,7 +25,7 @@ constexpr std::array<std::array<int, 2>, 12> cube_edges = {{{0, 1},
                                                             {2, 6},
                                                             {3, 7}}};  // z
 
-// Vertices of the net, one a cube of cells that holds both kinds.
+// Vertices of the surface net, one per cube of cells that contains both kinds.
 class SurfaceNet {
  public:
   SurfaceNet(const SolidGrid& grid, const Execution& execution) : grid_(grid), cubes_(grid.mixed_cubes()) {
@@ -61,7 +61,8 @@ class SurfaceNet {
     }
   }
 
-  // Every edge of the grid between the two kinds of cell is crossed by a quadrilateral of the four cubes round it.
+  // Every edge of the grid between the two kinds of cell is crossed by a quadrilateral of the four cubes
+  // around it.
   void make_triangles() {
     std::vector<std::array<int32_t, 3>> triangles;
     triangles.reserve(2 * cubes_.size() + 16);
@@ -91,7 +92,8 @@ class SurfaceNet {
     triangles.push_back({q[first], q[(first + 2) % 4], q[(first + 3) % 4]});
   }
 
-  // Stairs where no triangle of the input says where the surface lies: ends of open parts, bridges, rims of sheets.
+  // Smooths the stairs where no triangle of the input gives the position of the surface: ends of open parts,
+  // bridges, rims of sheets.
   void smooth() {
     constexpr int rounds = 3;
     std::vector<int32_t> rough;
@@ -116,7 +118,7 @@ class SurfaceNet {
   TriangleMesh mesh_;
   std::vector<int64_t> cubes_;   // per vertex
   std::vector<int32_t> vertex_;  // per cell: of the cube whose lowest cell it is, or -1
-  std::vector<char> exact_;      // per vertex: triangles of the input say where it lies
+  std::vector<char> exact_;      // per vertex: positioned by triangles of the input
 };
 
 }  // namespace

@@ -8,9 +8,10 @@
 namespace focal {
 namespace {
 
-constexpr float farthest_joint = 1e6F;  // of a part's joints in its frame, where the mean joint lies at 1
+// For coordinates of a part's joints in its frame, where the mean joint distance is 1.
+constexpr float farthest_joint = 1e6F;
 
-// The part's own file, which believes nothing of what it reads either.
+// Reads the part's own model file, with the same validation.
 std::shared_ptr<const LandmarkModel> read_part(ByteReader& in, size_t joints) {
   const uint64_t size = in.u64("size of a part's model");
   std::shared_ptr<LandmarkModel> part;

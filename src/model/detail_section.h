@@ -1,5 +1,5 @@
-// Section DETL of a model file: the parts of the body that are analysed once more by themselves, each with a model of its own. Read
-// after the skeleton, whose joints it names.
+// Section DETL of a model file: the body parts that get a second analysis of their own, each with its own
+// model. Read after the skeleton, whose joints it refers to.
 #pragma once
 #include "base/archive.h"
 #include "model/landmark_model.h"

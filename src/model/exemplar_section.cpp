@@ -11,7 +11,7 @@ namespace {
 constexpr float longest = 1000;  // distance in units of sqrt(area)
 constexpr float bulge_steps = 32767, direction_steps = 127, most_direction = 2;
 
-// 0 .. 2 steps for -most .. most.
+// Maps -most..most to 0..2 steps.
 int32_t to_steps(float value, float most, float steps) {
   return static_cast<int32_t>(std::lround(std::clamp(value / most, -1.0F, 1.0F) * steps) +
                               std::lround(steps));
@@ -61,7 +61,7 @@ void read_exemplars(ByteReader in, LandmarkModel& model) {
     ConstellationSample& sample = shape.constellation;
     sample.present = shape.marked;
     sample.has_chirality = in.u8("chirality") != 0;
-    std::vector<float> distance, x, y;  // grown with what is read: no allocation outgrows the file
+    std::vector<float> distance, x, y;  // grown while reading: no allocation exceeds the file's size
     for (Eigen::Index i = 0; i < L * L; ++i) {
       distance.push_back(in.f32("distance of landmarks", 0, longest));
       for (std::vector<float>* way : {&x, &y})

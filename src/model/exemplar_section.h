@@ -1,12 +1,13 @@
-// Section EXMP of a model file: the shapes of the exemplars one by one, which samples are theirs, how they bulge, where their marks lie to
-// each other. Read after the targets and the exemplars, which it belongs to.
+// Section EXMP of a model file: for each exemplar its sample numbers, its bulge and the distances and
+// directions between its landmarks. Read after the targets and the exemplars, which it refers to.
 #pragma once
 #include "base/archive.h"
 #include "model/landmark_model.h"
 
 namespace focal {
 
-// A number as the section keeps it. Detection uses no finer one, so that a model finds the same before it is saved and after.
+// A number with the precision of the file. Detection uses no higher precision, so that a model gives the same
+// results before and after saving.
 float kept_bulge(float value);
 float kept_direction(float value);
 

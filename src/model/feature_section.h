@@ -1,4 +1,5 @@
-// Section FEAT of a model file: what the forest knows of a point beside its signature, and how the heading of a mesh is found.
+// Section FEAT of a model file: the forest's features of a point besides its signature, and the forests that
+// find the heading of a mesh.
 #pragma once
 #include "base/archive.h"
 #include "model/landmark_model.h"

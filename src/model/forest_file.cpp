@@ -1,6 +1,6 @@
-// A forest as bytes. A binary tree in breadth-first order is told by one bit a node (G. Jacobson,
-// "Space-efficient Static Trees and Graphs", 1989): the children of its k-th inner node are nodes 2k + 1 and
-// 2k + 2.
+// Serialises a forest. The topology of a binary tree in breadth-first order takes one bit per node (G.
+// Jacobson, "Space-efficient Static Trees and Graphs", 1989): the children of the k-th inner node are nodes
+// 2k + 1 and 2k + 2.
 #include "model/forest_file.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 constexpr uint32_t last_feature = max_components - 1;
 constexpr float any_threshold = 1e30F;
 
-// Node types (1: leaf), features and children by the breadth-first rule.
+// Node types (1: leaf), features and children in breadth-first order.
 struct Shape {
   std::vector<uint32_t> is_leaf, inner_feature;
   std::vector<float> inner_threshold;
@@ -27,8 +27,8 @@ Shape shape_of(const RegressionTree& tree) {
   for (size_t node = 0; node < tree.feature.size(); ++node) {
     const bool is_leaf = tree.feature[node] < 0;
     if (tree.child[node] != (is_leaf ? leaf++ : 2 * inner++ + 1))
-      throw Error(Status::internal, "a tree does not lie breadth first",
-                  "This is a fault of focal: report it.");
+      throw Error(Status::internal, "a tree is not in breadth-first order",
+                  "This is a bug in focal: report it.");
     shape.is_leaf.push_back(is_leaf);
     if (is_leaf) continue;
     shape.inner_feature.push_back(static_cast<uint32_t>(tree.feature[node]));

@@ -1,5 +1,5 @@
-// The section METH of model and analysis files: which descriptor and which distance, by name. Files without it have the first
-// of each, which was all there was once.
+// Section METH of model and analysis files: the names of the descriptor and the distance. Files without it
+// use the first of each, the only ones of early versions.
 #pragma once
 #include "base/archive.h"
 
@@ -7,7 +7,7 @@ namespace focal {
 
 inline constexpr const char* method_section = "METH";
 
-// Numbers in the lists of descriptors/descriptor.h and geodesics/distance.h.
+// Indices into the lists of descriptors/descriptor.h and geodesics/distance.h.
 struct Method {
   int32_t descriptor = 0, distance = 0;
   bool is_first() const { return descriptor == 0 && distance == 0; }

@@ -1,4 +1,4 @@
-// A model as bytes. Every section has a pair of functions, one that writes it and one that reads it.
+// Serialises a model. Every section has a function that writes it and one that reads it.
 #include "model/model_file.h"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace {
 constexpr ArchiveKind kind{"FOCALMDL", "model", 1, 4};
 constexpr int32_t landmark_limit = 4096, name_limit = 4096, joint_limit = 4096;
 constexpr int32_t most = std::numeric_limits<int32_t>::max();
-constexpr float any_number = 1e9F;  // of learned coefficients: finite, and no sum of a few overflows
+constexpr float any_number = 1e9F;  // for learned coefficients: finite, and sums of a few do not overflow
 constexpr float longest = 1000;     // distance in units of sqrt(area)
 constexpr float min_spread = 1e-6F;
 
@@ -34,7 +34,7 @@ bool is_utf8(std::string_view text) {
                           : lead < 0xF0 ? 2
                           : lead < 0xF5 ? 3
                                         : -1;
-    // -1 is more than any text has left.
+    // -1 (no valid lead byte) is more than the remaining length of any text.
     if (text.size() - i < static_cast<size_t>(following)) return false;
     uint32_t code = following == 0 ? lead : lead & (0x3F >> following);
     for (int k = 0; k < following; ++k, ++i) {
@@ -139,7 +139,7 @@ void read_forests(ByteReader in, LandmarkModel& model) {
   in.expect_end();
 }
 
-// --- CNST: what the training shapes say of the landmarks' distances and chirality; empty with preset paper
+// --- CNST: statistics of the landmarks' distances and chirality; empty with preset paper
 
 void write_constellation(const LandmarkModel& model, ByteWriter& out) {
   const ConstellationStatistics& constellation = model.constellation;
@@ -169,7 +169,7 @@ void read_constellation(ByteReader in, LandmarkModel& model) {
   in.expect_end();
 }
 
-// --- ATLS: the training shapes as maps need them; none with preset paper
+// --- ATLS: the training shapes as stored for maps; none with preset paper
 
 constexpr int32_t point_limit = 1 << 16, eigenfunction_limit = 2000;
 
@@ -250,7 +250,7 @@ void read_calibration(ByteReader in, LandmarkModel& model) {
   in.expect_end();
 }
 
-// --- SKEL: the skeleton of rigged training shapes, and of each shape in the exemplars where its points and joints lie
+// --- SKEL: the skeleton of rigged training shapes, and the positions of points and joints of each exemplar
 
 void write_matrix(const Matrix4& matrix, ByteWriter& out) {
   for (int r = 0; r < 3; ++r)
@@ -322,7 +322,7 @@ void read_skeleton(ByteReader in, LandmarkModel& model) {
   in.expect_end();
 }
 
-// --- TMPL: the skeleton over the landmarks of marked shapes, as JSON; who rigs parses it
+// --- TMPL: the skeleton template over marked landmarks, as JSON; parsed when a skeleton is created
 
 void write_template(const LandmarkModel& model, ByteWriter& out) { out.text(model.skeleton_template); }
 
@@ -334,7 +334,7 @@ void read_template(ByteReader in, LandmarkModel& model) {
   in.expect_end();
 }
 
-// Reading goes in this order: what later sections are checked against comes first.
+// Order of reading: a section comes after the sections that it is checked against.
 struct Section {
   const char* name;
   void (*write)(const LandmarkModel&, ByteWriter&);
@@ -354,8 +354,8 @@ constexpr Section sections[] = {
     {"TMPL", write_template, read_template},
 };
 
-// Models of marked shapes have no skeleton, those of preset paper and of old versions no features and exemplars: their files lack the
-// sections.
+// Models of marked shapes have no skeleton; those of preset paper and of old versions have no features and
+// exemplars. Their files lack these sections.
 bool is_written(const Section& section, const LandmarkModel& model) {
   if (section.write == write_skeleton) return !model.skeleton.empty();
   if (section.write == write_features) return model.params.bulge || model.params.oriented;
@@ -390,7 +390,7 @@ LandmarkModel parse_model(std::span<const std::byte> file, PartsOfModel parts) {
     throw Error(Status::invalid_file, "a part of the model has parts of its own", "train the model again");
   LandmarkModel model;
   const Method method = read_method(archive);
-  model.params.bulge = model.params.oriented = false;  // unless the file says so
+  model.params.bulge = model.params.oriented = false;  // unless the file has them
   model.params.descriptor = method.descriptor, model.params.distance = method.distance;
   for (const Section& section : sections)
     if (!may_lack(section) || archive.has(section.name)) section.read(archive.section(section.name), model);

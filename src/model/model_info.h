@@ -1,4 +1,4 @@
-// What training makes and detection uses, and its file.
+// The result of training, as detection uses it, and its file.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -19,7 +19,7 @@ struct ModelInfo {
   int32_t mean_vertex_count = 0;  // of the training surfaces
   int64_t sample_count = 0;
   int64_t tree_node_count = 0;
-  std::vector<std::string> joint_names;  // of the skeleton that rigged training shapes share
+  std::vector<std::string> joint_names;  // of the skeleton that the rigged training shapes share
 };
 
 ModelInfo info_of(const LandmarkModel& model);

@@ -8,7 +8,7 @@ TrainParams TrainParams::from_preset(Preset preset) {
   if (preset == Preset::paper)
     params.eigenpair_count = 200, params.proxy_vertices = 0, params.sampling_rate = 0.5,
     params.bulge = params.oriented = false;
-  return params;  // the other numbers of Xia et al. 2016, Section 5, serve both presets
+  return params;  // the other numbers of Xia et al. 2016, Section 5, apply to both presets
 }
 
 double sampling_rate_of(const DetectParams& detect, const TrainParams& trained) {

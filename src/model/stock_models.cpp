@@ -54,7 +54,8 @@ std::vector<std::string> stock_folders(const std::string& of_host, const std::st
   if (!of_host.empty()) folders.push_back(of_host);
   add_folders_of_variable(folders);
   if (library_folder.empty()) return folders;
-  // A package that carries the library, a build folder, and what `cmake --install` lays down (lib, or lib/x86_64-linux-gnu).
+  // A package that contains the library, a build folder, and the layout of `cmake --install` (lib, or
+  // lib/x86_64-linux-gnu).
   for (const char* beside : {"/models", "/../models", "/../share/focal/models", "/../../share/focal/models"})
     folders.push_back(library_folder + beside);
   return folders;

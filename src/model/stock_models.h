@@ -1,6 +1,7 @@
-// Models that come with focal, or lie in a folder that the user names: files NAME.focal, loaded by name.
+// Stock models, installed with focal or in a folder that the user names: files NAME.focal, loaded by name.
 //
-// Texts and system calls, no std::filesystem: its paths and iterators end the process where memory is refused.
+// Uses strings and system calls instead of std::filesystem, whose paths and iterators terminate the process
+// when an allocation fails.
 #pragma once
 #include <span>
 #include <string>
@@ -12,17 +13,18 @@ struct StockModel {
   std::string name, path;
 };
 
-// Where they are looked for, in order: the host's own folder (empty: none), those that FOCAL_MODELS lists, and those that belong to
-// an installation whose library lies in library_folder (empty: not known).
+// The folders to search, in order: the host's own folder (empty: none), those that FOCAL_MODELS lists, and
+// those of an installation whose library is in library_folder (empty: unknown).
 std::vector<std::string> stock_folders(const std::string& of_host, const std::string& library_folder);
 
-// By name; of files of one name that of the first folder counts. Folders that are missing or cannot be read hold none.
+// Sorted by name; the first folder that has a name takes precedence. Folders that are missing or unreadable
+// are skipped.
 std::vector<StockModel> stock_models_in(std::span<const std::string> folders);
 
-// Throws file_not_found, naming those that are there.
+// Throws file_not_found with the names of the existing ones.
 const StockModel& stock_model(std::span<const StockModel> models, const std::string& name);
 
-// What to do without a model, for the end of an error: which stock models there are, or how to get them.
+// A hint for errors without a model: the existing stock models, or how to get some.
 std::string stock_hint(std::span<const StockModel> models);
 
 }  // namespace focal

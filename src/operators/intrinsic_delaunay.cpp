@@ -10,10 +10,10 @@
 namespace focal {
 namespace {
 
-// How much longer two sides of a triangle are than the third, at least, in mean edge lengths: as in the paper; and what no
-// flip may leave, for below it lengths are mostly rounding.
+// Minimum amount by which two sides of a triangle must exceed the third, in mean edge lengths: before
+// flipping, as in the paper; and after a flip, because below it lengths are mostly rounding errors.
 constexpr double slack_before = 1e-5, slack_after = 1e-12;
-constexpr double tolerance = 1e-10;  // of the sum of cotangents: below, a flip would gain rounding only
+constexpr double tolerance = 1e-10;  // of the sum of cotangents: smaller gains of a flip are rounding errors
 
 class Flipper {
  public:
@@ -25,7 +25,7 @@ class Flipper {
     const auto count = static_cast<int32_t>(twin_.size());
     queued_.assign(count, 1);
     for (int32_t s = count - 1; s >= 0; --s) queue_.push_back(s);
-    // Every flip lowers the Dirichlet energy, so this ends; the bound is against rounding.
+    // Every flip lowers the Dirichlet energy, so this terminates; the bound guards against rounding errors.
     for (int64_t left = 20 * int64_t{count} + 1000; left > 0 && !queue_.empty(); --left) {
       const int32_t side = queue_.back();
       queue_.pop_back();
@@ -39,7 +39,7 @@ class Flipper {
   static int32_t next(int32_t side) { return side % 3 == 2 ? side - 2 : side + 1; }
   static int32_t previous(int32_t side) { return side % 3 == 0 ? side + 2 : side - 1; }
 
-  double cotangent(int32_t side) const {  // at the corner that the side is opposite to
+  double cotangent(int32_t side) const {  // at the corner opposite to the side
     const double a = length(side), b = length(next(side)), c = length(previous(side));
     const double area = std::sqrt(std::max((a + b + c) * (b + c - a) * (a + c - b) * (a + b - c), 0.0)) / 4;
     return (b * b + c * c - a * a) / (4 * std::max(area, 1e-30));
@@ -74,7 +74,7 @@ class Flipper {
     surface_.lengths.row(u) << l_bp, crossing, l_qb;
     for (int k = 0; k < 4; ++k) {
       int32_t beyond = outside[k];
-      for (int m = 0; m < 4; ++m)  // an edge between these two triangles themselves
+      for (int m = 0; m < 4; ++m)  // an edge between these two triangles
         if (beyond == moved_from[m]) beyond = moved_to[m];
       twin_[moved_to[k]] = beyond;
     }

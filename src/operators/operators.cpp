@@ -23,7 +23,7 @@ struct Corners {
   Vector3 scaled_hat_gradient(int i) const { return normal.normalized().cross(opposite.col(i)); }
 };
 
-// From the corners' places, which is more exact than from lengths where a triangle is thin.
+// From the positions of the corners, which is more accurate than from lengths where a triangle is thin.
 TriangleMeasure measure_corners(const TriangleMesh& mesh, int32_t t, double smallest_area) {
   const Corners corners(mesh, t);
   const double twice = corners.normal.norm();
@@ -34,15 +34,15 @@ TriangleMeasure measure_corners(const TriangleMesh& mesh, int32_t t, double smal
   return result;
 }
 
-constexpr double min_mass_by_stiffness =
-    1e-10;  // mass, of area, over the diagonal of L: far below what shapes have
+// Ratio of mass, relative to the area, to the diagonal of L: far below the values of real shapes.
+constexpr double min_mass_by_stiffness = 1e-10;
 
 struct WeightedEdge {
   int32_t a, b;
   double weight;
 };
 
-// Column by column: weights of equal edges are added in their order, the diagonal is what makes the sum 0.
+// Column by column: weights of equal edges are added in their order; the diagonal makes the sum 0.
 SparseMatrix laplacian_of(const std::vector<WeightedEdge>& edges, int32_t n) {
   std::vector<int32_t> start(n + 1, 0);
   for (const auto& edge : edges) ++start[edge.a + 1], ++start[edge.b + 1];
@@ -60,7 +60,7 @@ SparseMatrix laplacian_of(const std::vector<WeightedEdge>& edges, int32_t n) {
     std::stable_sort(begin, end, [](const auto& a, const auto& b) { return a.first < b.first; });
     double sum = 0;
     for (auto it = begin; it != end; ++it) sum += it->first == v ? 0 : it->second;
-    bool placed = false;  // the diagonal
+    bool placed = false;  // the diagonal was inserted
     L.startVec(v);
     for (auto it = begin; it != end;) {
       const int32_t other = it->first;
@@ -92,7 +92,7 @@ Operators make_operators(const TriangleMesh& mesh, std::span<const std::pair<int
   std::vector<WeightedEdge> edges;
   edges.reserve(3 * static_cast<size_t>(m) + bridges.size());
   for (int32_t t = 0; t < m; ++t) {
-    // The floor keeps slivers finite; it is far below the area of any triangle that matters.
+    // The lower limit keeps slivers finite; it is far below the area of any relevant triangle.
     TriangleMeasure triangle = delaunay ? measure(surface.lengths.row(t), 5e-13 * result.area)
                                         : measure_corners(mesh, t, 5e-13 * result.area);
     triangle.area /= surface.layers, triangle.half_cotangent /= surface.layers;
@@ -105,9 +105,11 @@ Operators make_operators(const TriangleMesh& mesh, std::span<const std::pair<int
     }
   }
   for (const auto& [a, b] : bridges) edges.push_back({a, b, 1});
-  result.mass = result.mass.cwiseMax(1e-9 * result.area / n);  // a vertex of slivers only still has some mass
+  result.mass =
+      result.mass.cwiseMax(1e-9 * result.area / n);  // a vertex with slivers only still has some mass
   result.L = laplacian_of(edges, n);
-  // Nor is any mass so small beside its stiffness that the eigenvalues span more than double precision can hold.
+  // Also limits the ratio of mass to stiffness, so that the eigenvalues stay within the range of double
+  // precision.
   result.mass = result.mass.cwiseMax(min_mass_by_stiffness * result.area * result.L.diagonal());
   return result;
 }

@@ -10,24 +10,25 @@
 namespace focal {
 
 struct Operators {
-  // m x 3: those of the mesh, or of its intrinsic Delaunay triangulation; two for each where that is a tufted cover, and
-  // then cotangents and areas are halved.
+  // m x 3: the triangles of the mesh, or of its intrinsic Delaunay triangulation; two for each where that is
+  // a tufted cover, with halved cotangents and areas.
   MatrixX3i triangles;
   SparseMatrix L;  // n x n cotangent Laplacian, positive semi-definite, rows sum to 0; no unit
-  Vector mass;     // n, lumped (a third of the area round each vertex), > 0; unit area
-  Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>
-      half_cotangent;  // m x 3: half the cotangent at corner i
-  Vector face_area;    // m
+  Vector mass;     // n, lumped (a third of the area around each vertex), > 0; in units of area
+  // m x 3: half the cotangent at corner i.
+  Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> half_cotangent;
+  Vector face_area;  // m
   double area = 0, mean_edge = 0;
 };
 
 // bridges: pairs of vertices joined by an edge of the Laplacian, so that separate parts are connected.
-// delaunay: over the intrinsic Delaunay triangulation, which thin and obtuse triangles do not harm, nor edges of more than
-// two; no weight is negative. Else of the triangles as they are.
+// delaunay: use the intrinsic Delaunay triangulation, which is robust to thin and obtuse triangles and to
+// edges of more than two triangles; no weight is negative. Else the triangles as they are.
 Operators make_operators(const TriangleMesh& mesh, std::span<const std::pair<int32_t, int32_t>> bridges = {},
                          bool delaunay = false);
 
-// Vertices reached from a vertex along the edges of L without leaving the ball of this radius round it, itself first.
+// Vertices connected with a vertex along the edges of L inside the ball of this radius around it, itself
+// first.
 std::vector<int32_t> connected_ball(const SparseMatrix& L, const MatrixX3& positions, int32_t centre,
                                     double radius);
 

@@ -21,7 +21,8 @@ TuftedCover tufted_cover(const MatrixX3i& triangles, const EdgeSides& edges) {
   cover.triangles.topRows(m) = triangles;
   cover.triangles.bottomRows(m) << triangles.col(0), triangles.col(2), triangles.col(1);
   cover.twin.resize(6 * static_cast<size_t>(m));
-  // The same edge on the triangle as given or turned over, whichever runs from the smaller vertex to the larger.
+  // The same edge on the given triangle or on its reversed copy, whichever goes from the smaller vertex to
+  // the larger.
   const auto turned_over = [m](int32_t side) { return 3 * m + side - side % 3 + (3 - side % 3) % 3; };
   const auto upward = [&](int32_t side) {
     return side_from(triangles, side) < side_to(triangles, side) ? side : turned_over(side);

@@ -17,7 +17,7 @@ Vector signed_sides(const SymmetryPlane& plane, const MatrixX3& positions) {
   return (positions * plane.normal).array() - plane.offset;
 }
 
-// Section 4.1: on the side that the normal does not point to, the components stand in reverse order.
+// Section 4.1: on the side opposite to the normal, the components are in reverse order.
 RowMatrixf with_sides(const RowMatrixf& descriptors, std::span<const int32_t> samples, const Vector& side,
                       double sign) {
   RowMatrixf result = descriptors;
@@ -26,7 +26,8 @@ RowMatrixf with_sides(const RowMatrixf& descriptors, std::span<const int32_t> sa
   return result;
 }
 
-// samples x landmarks: distance from the sample to the mark over the sample's largest distance; NaN where not marked.
+// samples x landmarks: distance from the sample to the landmark divided by the sample's largest distance; NaN
+// where the landmark is absent.
 RowMatrixf normalised_targets(const MarkedShape& shape, const SurfaceAnalysis& analysis,
                               const Execution& execution) {
   RowMatrixf targets = RowMatrixf::Constant(analysis.samples.size(), shape.marks.size(), NAN);
@@ -52,7 +53,8 @@ RowMatrixf normalised_targets(const MarkedShape& shape, const SurfaceAnalysis& a
   return targets;
 }
 
-// The normal's sign is not given in the paper. Ours: the side on which the marks agree with the first shape's.
+// The paper does not define the sign of the normal. Ours: the sign for which the landmarks' sides agree with
+// the first shape's.
 double consistent_sign(const MarkedShape& shape, const MarkedShape& first, const Vector& side,
                        const Vector& first_side) {
   const auto at_mark = [](const MarkedShape& s, size_t l, const Vector& value) {
@@ -68,7 +70,7 @@ double consistent_sign(const MarkedShape& shape, const MarkedShape& first, const
   return agreement < 0 ? -1 : 1;
 }
 
-// Forest of one landmark over the samples of the shapes on which it is marked.
+// Trains the forest of one landmark on the samples of the shapes that have it.
 RegressionForest landmark_forest(const BinnedDescriptors& descriptors, const RowMatrixf& targets,
                                  int32_t landmark, const ForestParams& params, const Execution& execution) {
   std::vector<Eigen::Index> rows;

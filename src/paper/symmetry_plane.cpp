@@ -1,8 +1,9 @@
-// Pairs of points that look alike vote for the plane between them; the one the surface agrees with most wins.
+// Pairs of points with similar neighbourhoods vote for the plane between them; the plane that agrees best
+// with the surface wins.
 // N. J. Mitra, L. J. Guibas, M. Pauly, "Partial and Approximate Symmetry Detection for 3D Geometry", 2006.
-// Their principal curvatures are replaced by moments of the surface in balls, which tell the same without
-// differentiating a noisy mesh: H. Pottmann et al., "Principal curvatures from the integral invariant
-// viewpoint", 2007.
+// Their principal curvatures are replaced by moments of the surface in balls, which carry the same
+// information without differentiating a noisy mesh: H. Pottmann et al., "Principal curvatures from the
+// integral invariant viewpoint", 2007.
 #include "paper/symmetry_plane.h"
 
 #include <Eigen/Eigenvalues>
@@ -17,7 +18,7 @@
 namespace focal {
 namespace {
 
-// All lengths are in units of sqrt(area), seen from the surface's centre of area.
+// All lengths are in units of sqrt(area), relative to the surface's centroid.
 constexpr int32_t cloud_size = 6000, probe_stride = 8;  // every eighth point of the cloud is a probe
 constexpr std::array<double, 3> ball_radii = {0.08, 0.16, 0.3};
 constexpr int moments_per_ball = 5, signature_size = moments_per_ball * int(ball_radii.size());
@@ -46,8 +47,8 @@ struct Vote {
 struct Probes {
   std::vector<int32_t> cloud_index;
   RowMatrix signatures;  // every column of variance 1
-  MatrixX3
-      leans;  // from each point to the centroid of its middle ball: a second direction besides the normal
+  // From each point to the centroid of its middle ball: a second direction besides the normal.
+  MatrixX3 leans;
 };
 
 struct Scored {
@@ -72,7 +73,7 @@ MatrixX3 vertex_normals(const TriangleMesh& mesh, const MatrixX3& products) {
   return normals;
 }
 
-// Stratified over the area: the i-th point lies in the i-th of cloud_size equal shares of it.
+// Stratified by area: point i is in the i-th of cloud_size equal shares of it.
 Cloud sample_surface(const TriangleMesh& mesh, uint64_t seed) {
   const MatrixX3 products = corner_products(mesh), normals = vertex_normals(mesh, products);
   const Vector areas = products.rowwise().norm();
@@ -96,7 +97,7 @@ Cloud sample_surface(const TriangleMesh& mesh, uint64_t seed) {
   return cloud;
 }
 
-// Moments of the cloud in a ball about point i: area, lean along the normal, extents. Returns the lean.
+// Moments of the cloud in a ball around point i: area, lean along the normal, extents. Returns the lean.
 Vector3 ball_moments(const Cloud& cloud, int32_t i, const std::vector<int32_t>& in_ball, double radius,
                      double* out) {
   const Vector3 centre = cloud.points.row(i);
@@ -127,7 +128,7 @@ Probes describe(const Cloud& cloud, const Execution& execution) {
       nearby.resize(cloud_size);
       std::iota(nearby.begin(), nearby.end(), 0);
       const Vector squared = (cloud.points.rowwise() - cloud.points.row(i)).rowwise().squaredNorm();
-      for (size_t ball = ball_radii.size(); ball-- > 0;) {  // each ball holds the next smaller one
+      for (size_t ball = ball_radii.size(); ball-- > 0;) {  // each ball contains the next smaller one
         const double r = ball_radii[ball];
         std::erase_if(nearby, [&](int32_t j) { return squared[j] > r * r; });
         double* out = &probes.signatures(p, static_cast<int>(ball) * moments_per_ball);
@@ -139,13 +140,14 @@ Probes describe(const Cloud& cloud, const Execution& execution) {
   probes.signatures.rowwise() -= probes.signatures.colwise().mean().eval();
   for (int c = 0; c < signature_size; ++c) {
     const double deviation = std::sqrt(probes.signatures.col(c).squaredNorm() / count);
-    probes.signatures.col(c) /= std::max(deviation, 1e-3);  // what hardly varies says nothing
+    // Components that hardly vary carry no information.
+    probes.signatures.col(c) /= std::max(deviation, 1e-3);
   }
   return probes;
 }
 
-// The vote of the pair (p, q) for the plane half-way between them; weight 0 when the plane does not also map
-// normal to normal and lean to lean.
+// The vote of the pair (p, q) for the plane half-way between them; weight 0 unless the plane also maps normal
+// to normal and lean to lean.
 Vote pair_vote(const Cloud& cloud, const Probes& probes, int32_t p, int32_t q, double signature_distance) {
   const Vector3 a = cloud.points.row(probes.cloud_index[p]), b = cloud.points.row(probes.cloud_index[q]);
   const double distance = (a - b).norm();
@@ -187,7 +189,7 @@ std::vector<Vote> collect_votes(const Cloud& cloud, const Probes& probes, const 
   return votes;
 }
 
-// Squared distance of two planes in bandwidths; sign receives +1 or -1, by which b's normal agrees with a's.
+// Squared distance of two planes in bandwidths; sign receives +1 or -1 for the same or the opposite normal.
 double plane_distance(const Plane& a, const Plane& b, double& sign) {
   sign = a.normal.dot(b.normal) < 0 ? -1 : 1;
   const double turn = (a.normal - sign * b.normal).squaredNorm() / (angle_bandwidth * angle_bandwidth);
@@ -195,7 +197,7 @@ double plane_distance(const Plane& a, const Plane& b, double& sign) {
   return turn + shift * shift;
 }
 
-// One step of the mean shift from `at`; density receives the sum of the kernel there.
+// One step of the mean shift from `at`; density receives the kernel sum there.
 Plane shift_to_mean(const std::vector<Vote>& votes, const Plane& at, double& density) {
   Vector3 normal = Vector3::Zero();
   double offset = 0, sign = 1;
@@ -233,7 +235,7 @@ std::vector<Plane> find_modes(const std::vector<Vote>& votes, const Execution& e
   return modes;
 }
 
-// How the surface answers the reflection of one of its points: the point of the surface nearest to it.
+// The point of the surface nearest to a reflected point.
 struct Answer {
   Vector3 point;
   double distance, agreement;  // agreement of the normals, -1..1
@@ -249,7 +251,7 @@ class Reflector {
     const Vector3 reflected = plane.reflect(point(probe));
     const int32_t nearest = tree_.nearest(reflected).first;
     const Vector3 normal = cloud_.normals.row(nearest), site = cloud_.points.row(nearest);
-    // Within the spacing of the cloud the surface goes on along the tangent plane.
+    // Within the spacing of the cloud the surface is approximated by the tangent plane.
     Vector3 along = reflected - site;
     along -= along.dot(normal) * normal;
     if (along.norm() > spacing) along *= spacing / along.norm();
@@ -278,9 +280,9 @@ double score(const Reflector& reflector, const Plane& plane, double tolerance, i
   return sum / std::max(count, 1);
 }
 
-// One step of the plane's ICP: the plane that reflects the probes best, in the weighted least-squares sense,
-// onto their answers: offset through the mean midpoint, normal the eigenvector of sum w p q^T of smallest
-// eigenvalue.
+// One ICP step: the plane whose reflection maps the probes best onto their nearest points, by weighted least
+// squares. The offset is that of the mean midpoint, the normal the eigenvector of sum w p q^T with the
+// smallest eigenvalue.
 Plane refine_step(const Reflector& reflector, const Plane& plane, double tolerance, int32_t stride) {
   std::vector<std::pair<Vector3, Vector3>> pairs;
   std::vector<double> weights;
@@ -304,7 +306,7 @@ Plane refine_step(const Reflector& reflector, const Plane& plane, double toleran
   return {normal, normal.dot(middle)};
 }
 
-// Refines with a tolerance that shrinks from coarse to the final one.
+// Refines with a tolerance that shrinks from coarse to final.
 Scored refine(const Reflector& reflector, Plane plane, int steps, int32_t stride) {
   constexpr double coarse = 0.08;
   for (int step = 0; step < steps; ++step) {

@@ -7,9 +7,9 @@
 namespace focal {
 
 struct SymmetryPlane {
-  Vector3 normal = Vector3::UnitX();  // unit length; its sign carries no meaning
+  Vector3 normal = Vector3::UnitX();  // unit length; the sign has no meaning
   double offset = 0;                  // the plane is {x : normal . x = offset}
-  double support = 0;  // 0..1: fraction of the sampled points whose reflection lies on the surface
+  double support = 0;  // 0..1: fraction of the sampled points whose reflection is on the surface
 };
 
 SymmetryPlane symmetry_plane(const TriangleMesh& mesh, uint64_t seed, const Execution& execution);

@@ -14,30 +14,32 @@
 namespace focal {
 namespace {
 
-// Lengths are in units of sqrt(area). Chosen on left-out characters of packs and of the generator.
-constexpr double min_share = 0.006;  // of the area: parts below that do not move on their own
-constexpr double no_share = 1e-4;    // likewise, of a joint by itself: a control, which nothing holds
+// Lengths are in units of sqrt(area). Chosen on left-out characters of game packs and of the generator.
+constexpr double min_share = 0.006;  // of the area: smaller parts do not move on their own
+constexpr double no_share = 1e-4;    // likewise, for a single joint: a control, which no surface constrains
 constexpr size_t most_moving = 40, normal_points = 10;
 constexpr Eigen::Index coarse_stride = 4, target_samples = 1000;  // of the points, of the target's
-constexpr double target_weight = 0.5;   // of the way back, from the target to the shape
-constexpr double point_weight = 0.1;    // of a distance along the surface beside one across it
-constexpr double normal_cost = 0.0245;  // of two normals at a right angle
-constexpr double pose_cost = 0.02;      // of joints bent by a right angle from the bind pose
-constexpr double min_facing = 0.05;     // pairs that face away from each other still count a little
-// Distances beyond which a pair counts little, at first and at last, and an image of a map.
+constexpr double target_weight = 0.5;   // of the distances from the target to the shape
+constexpr double point_weight = 0.1;    // weight of a distance along the surface relative to one across it
+constexpr double normal_cost = 0.0245;  // of two perpendicular normals
+constexpr double pose_cost = 0.02;      // of joints bent by 90 degrees from the bind pose
+constexpr double min_facing = 0.05;     // pairs with opposite normals keep a small weight
+// Distances at which the weight of a pair decreases, in the first and the last round, and of an image of a
+// map.
 constexpr double loose = 0.17, tight = 0.045, map_outlier = 0.12;
-constexpr double max_bend = 1.8;                    // beyond, a joint starts as the bind pose has it
-constexpr double max_angle = 0.3, max_scale = 0.2;  // a round
-// Of all bones together, beside distances whose weights sum to 1 or so.
-constexpr double bone_weight = 3;        // a joint lies where the bone that leads to it ends
-constexpr double angle_weight = 5e-3;    // turns of a round, and what neighbours turn beside each other
-constexpr double pose_weight = 3e-4;     // angles between neighbours beside those of the bind pose
+constexpr double max_bend = 1.8;                    // above it, a joint starts in its bind pose
+constexpr double max_angle = 0.3, max_scale = 0.2;  // per round
+// Weights of all bones together, relative to distances whose weights sum to about 1.
+constexpr double bone_weight = 3;        // a joint is at the end of its parent's bone
+constexpr double angle_weight = 5e-3;    // rotations of a round, and differences between neighbours
+constexpr double pose_weight = 3e-4;     // angles between neighbours relative to the bind pose
 constexpr double even_weight = 3e-3;     // scales of neighbours
-constexpr double size_weight = 2.5e-2;   // scales beside the mean
-constexpr double slender_weight = 1e-2;  // length beside girth
-constexpr double symmetry_weight = 0.3, still_weight = 1e-3;  // of both sides; of staying
-constexpr double control_reach = 0.1;  // joints nearer than that to a control count alike for its place
-constexpr int unknowns = 8;            // of a joint: place, turn, length, girth
+constexpr double size_weight = 2.5e-2;   // scales relative to the mean
+constexpr double slender_weight = 1e-2;  // length relative to girth
+constexpr double symmetry_weight = 0.3, still_weight = 1e-3;  // of both sides; of not moving
+// Joints nearer to a control than this have equal weight for its position.
+constexpr double control_reach = 0.1;
+constexpr int unknowns = 8;  // per joint: position, rotation, length, girth
 
 using Jacobian = Eigen::Matrix<double, 3, unknowns>;
 
@@ -51,13 +53,13 @@ Matrix3 turn_by(const Vector3& turn) {
   return Eigen::AngleAxisd(std::min(turn.norm(), max_angle), turn.stableNormalized()).toRotationMatrix();
 }
 
-// Between a joint and the one that it hangs on, in world coordinates: axis times angle.
+// Rotation between a joint and its parent, in world coordinates: axis times angle.
 Vector3 bend_of(const Matrix3& turn, const Matrix3& above) {
   const Eigen::AngleAxisd bend(Matrix3(turn * above.transpose()));
   return bend.angle() * bend.axis();
 }
 
-// The direction in which points vary least.
+// The direction of least variance of the points.
 Vector3 flat_direction(const MatrixX3& points) {
   const MatrixX3 away = points.rowwise() - points.colwise().mean();
   return Eigen::SelfAdjointEigenSolver<Matrix3>(away.transpose() * away).eigenvectors().col(0);
@@ -74,13 +76,13 @@ FitTarget::FitTarget(const TriangleMesh& surface)
   area /= area.sum();
 }
 
-// The normal equations. Only the lower triangle is filled.
+// The normal equations. Only the lower triangle is set.
 struct ArticulatedFit::System {
   explicit System(size_t joints)
       : matrix(Eigen::MatrixXd::Zero(unknowns * joints, unknowns * joints)),
         gradient(Vector::Zero(unknowns * joints)) {}
 
-  // A residual that moves by one unit with the first unknown and against it with the second, from -1: none.
+  // Adds a residual with derivative 1 for the first unknown and -1 for the second; index -1: none.
   void add_difference(Eigen::Index first, Eigen::Index second, double value, double weight) {
     matrix(first, first) += weight, gradient[first] += weight * value;
     if (second < 0) return;
@@ -131,7 +133,8 @@ void ArticulatedFit::choose_moving() {
     moving_.push_back(static_cast<int32_t>(j)), parent_.push_back(above);
   }
   if (moving_.empty())
-    throw Error(Status::invalid_argument, "a training character's rig moves nothing", "learn the model anew");
+    throw Error(Status::invalid_argument, "a training character's rig moves no vertex",
+                "train the model again");
   for (const int32_t j : moving_) {
     constexpr double min_length = 0.02;
     const Vector3 to_tip = shape_.rig->tip[j] - bind_place(j);
@@ -152,7 +155,7 @@ void ArticulatedFit::cut_into_parts() {
       else
         parts.push_back({slot_[one.joint], one.weight});
     }
-    if (parts.empty()) parts.push_back({0, 1});  // of a joint that is missing here
+    if (parts.empty()) parts.push_back({0, 1});  // of a joint that this shape lacks
     std::sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.slot < b.slot; });
     double sum = 0;
     for (const Part& part : parts) sum += part.weight;
@@ -165,7 +168,7 @@ void ArticulatedFit::cut_into_parts() {
   }
 }
 
-// Across the nearest points, away from the bone.
+// Perpendicular to the nearest points, away from the bone.
 void ArticulatedFit::estimate_normals() {
   const Eigen::Index points = shape_.positions.rows();
   normals_ = MatrixX3::Zero(points, 3);
@@ -366,7 +369,8 @@ void ArticulatedFit::run(const FitRounds& rounds, const std::vector<int32_t>& im
   take_along(posture);
 }
 
-// Joints that do not move on their own go with what they hang on; controls above all that moves, with what lies near them.
+// Joints that do not move on their own follow their parent; controls above all moving joints follow the
+// joints near them.
 void ArticulatedFit::take_along(Posture& posture) const {
   MatrixX3 before(moving_.size(), 3), after(moving_.size(), 3);
   for (size_t slot = 0; slot < moving_.size(); ++slot) {

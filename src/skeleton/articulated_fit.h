@@ -1,7 +1,8 @@
-// A training character bent at its joints and stretched along and around its bones until its surface lies on another body's. Unlike a
-// map it can neither fold nor exchange parts, so it places joints where maps of unlike bodies blur, and how well it ends says how a
-// body faces. After articulated iterative closest points (S. Pellegrini, K. Schindler, D. Nardi, "A Generalisation of the ICP
-// Algorithm for Articulated Bodies", 2008), with point-to-plane distances and linear blend skinning.
+// Fits a training character to another body by bending its joints and scaling its bones in length and girth
+// until the surfaces match. Unlike a map it cannot fold or exchange parts, so it places joints where maps of
+// dissimilar bodies are blurred, and its residual shows the orientation of a body. Based on articulated
+// iterative closest points (S. Pellegrini, K. Schindler, D. Nardi, "A Generalisation of the ICP Algorithm for
+// Articulated Bodies", 2008), with point-to-plane distances and linear blend skinning.
 #pragma once
 #include <vector>
 
@@ -11,7 +12,7 @@
 
 namespace focal {
 
-// The surface to lie on, of area 1. Keeps what it is made of.
+// The surface to fit to, of area 1. Keeps references to its arguments.
 struct FitTarget {
   explicit FitTarget(const TriangleMesh& surface);
 
@@ -20,8 +21,8 @@ struct FitTarget {
   NearestVertex tree;
 };
 
-// Of each joint of a skeleton: where it lies, how it is turned from its bind pose, and by what its part is scaled along its bone and
-// around it (logarithms).
+// For each joint of a skeleton: position, rotation from the bind pose, and the scales of its part along and
+// around its bone (logarithms).
 struct Posture {
   std::vector<Vector3> place;
   std::vector<Matrix3> turn;
@@ -29,29 +30,31 @@ struct Posture {
 };
 
 struct FitRounds {
-  int32_t coarse = 10, fine = 5;  // with a part of the points, then with all
-  double map_weight = 0;          // of the points' images beside the surface's distance, falling to 0
+  int32_t coarse = 10, fine = 5;  // rounds with a subset of the points, then with all
+  double map_weight = 0;          // of the points' images relative to the surface's distance, decreasing to 0
 };
 
 class ArticulatedFit {
  public:
-  // counterpart: per joint the one on the other side, or -1. shape has a rig. Keeps references to all three.
+  // counterpart: per joint the one on the other side, or -1. shape has a rig. Keeps references to all three
+  // arguments.
   ArticulatedFit(const std::vector<SkeletonJoint>& skeleton, const Exemplar& shape,
                  const std::vector<int32_t>& counterpart, const FitTarget& target);
 
-  // images: a vertex of the target a point, or empty.
+  // images: one vertex of the target per point, or empty.
   void run(const FitRounds& rounds, const std::vector<int32_t>& images, Posture& posture) const;
-  // Mean distance of both surfaces from each other, there and back, with parts for how their normals differ and how far the joints bend.
+  // Mean distance of the two surfaces in both directions, with penalties for different normals and bent
+  // joints.
   double residual(const Posture& posture) const;
   MatrixX3 points(const Posture& posture) const;
 
   bool has(size_t joint) const { return shape_.rig->bind[joint].has_value(); }
   Vector3 bind_place(size_t joint) const { return shape_.rig->bind[joint]->topRightCorner<3, 1>(); }
-  const Vector3& bone(size_t joint) const { return axis_[joint]; }  // its unit direction in the bind pose
+  const Vector3& bone(size_t joint) const { return axis_[joint]; }  // unit direction in the bind pose
   Vector3 carried(const Posture& posture, size_t joint, const Vector3& place) const;
 
  private:
-  struct Part {  // of a point that one joint moves: along its bone and away from it
+  struct Part {  // coordinates of a point that one joint moves: along its bone and away from it
     int32_t slot = 0;
     double weight = 0;
     Vector3 along = Vector3::Zero(), away = Vector3::Zero();
@@ -68,8 +71,8 @@ class ArticulatedFit {
   void unbend(Posture& posture) const;
   void move(const Vector& step, Posture& posture) const;
   void take_along(Posture& posture) const;
-  // pair(point, vertex, gap, weight): once for each point and vertex of the target that should meet. Returns their mean distance, see
-  // residual.
+  // Calls pair(point, vertex, gap, weight) once for each corresponding point and vertex of the target.
+  // Returns their mean distance, see residual.
   template <class Pair>
   double for_each_pair(const MatrixX3& points, const MatrixX3& normals, Eigen::Index stride,
                        Pair&& pair) const;
@@ -80,9 +83,9 @@ class ArticulatedFit {
   const FitTarget& target_;
   Vector weight_;                // of the points, sum 1
   MatrixX3 normals_;             // of the points
-  std::vector<int32_t> moving_;  // joints that move on their own; small parts go with what they hang on
-  std::vector<int32_t> slot_;  // per joint its number among them or that of the joint it goes with; -1: none
-  std::vector<int32_t> parent_;  // per moving joint the slot of the one it hangs on, or -1
+  std::vector<int32_t> moving_;  // joints that move on their own; small parts follow their parent
+  std::vector<int32_t> slot_;    // per joint its number among them or that of the joint it follows; -1: none
+  std::vector<int32_t> parent_;  // per moving joint the slot of its parent, or -1
   std::vector<Vector3> axis_;
   std::vector<std::vector<Part>> parts_;
 };

@@ -12,17 +12,17 @@
 namespace focal {
 namespace {
 
-// Chosen on left-out characters of packs and of the generator.
+// Chosen on left-out characters of game packs and of the generator.
 constexpr size_t max_from_maps = 6, max_reversed = 4, max_laid_over = 8, max_kept_over = 4;  // fits
-constexpr double sure_bulge = 0.25;         // maps whose surfaces bulge that much alike face the right way,
-constexpr double sure_residual = 0.07;      // where a fit from them ends that near to the body
-constexpr double reversing_margin = 0.035;  // fits that face the other way must be so much better
-constexpr double residual_falloff = 30;     // a fit counts exp(-falloff (residual / least residual - 1))
-constexpr double agreement = 0.05;          // of sqrt(area): fits whose joints lie farther off hardly count
-constexpr double start_weight = 0.7;        // of the maps' joints beside all fits
+constexpr double sure_bulge = 0.25;     // maps with at least this bulge agreement have the correct heading
+constexpr double sure_residual = 0.07;  // if a fit from them ends this near to the body
+constexpr double reversing_margin = 0.035;  // required advantage of fits with the opposite heading
+constexpr double residual_falloff = 30;     // weight of a fit: exp(-falloff (residual / least residual - 1))
+constexpr double agreement = 0.05;          // in sqrt(area): fits with more distant joints get a small weight
+constexpr double start_weight = 0.7;        // of the maps' joints relative to all fits
 constexpr FitRounds from_maps{.coarse = 10, .fine = 5, .map_weight = 0.3};
 constexpr FitRounds from_posture{.coarse = 10, .fine = 5}, glance{.coarse = 8, .fine = 0};
-constexpr FitRounds from_exchanged{.coarse = 25, .fine = 10};  // the trunk has to turn back
+constexpr FitRounds from_exchanged{.coarse = 25, .fine = 10};  // the trunk has to rotate back
 
 struct Start {
   int32_t shape = 0;
@@ -77,7 +77,7 @@ class Fitting {
     return starts;
   }
 
-  // What was taken for the left side is the right one.
+  // Exchanges left and right.
   std::vector<Start> reversed(std::vector<FittedShape> fits) const {
     keep_best(fits, max_reversed);
     const Matrix3 about_up = Eigen::AngleAxisd(EIGEN_PI, Vector3::UnitY()).toRotationMatrix();
@@ -94,8 +94,8 @@ class Fitting {
     return starts;
   }
 
-  // Its limbs that hang down side by side, legs above all, each pair exchanged where it lies crossed: maps of a stride can take one for
-  // the other.
+  // Exchanges each pair of limbs that hang down side by side, mainly legs, where they are crossed: in a
+  // stride, maps can confuse them.
   std::vector<Start> with_exchanged_limbs(const FittedShape& one) const {
     const ArticulatedFit& fit = *fits_[one.shape];
     std::vector<Start> starts;
@@ -118,7 +118,7 @@ class Fitting {
     return starts;
   }
 
-  // Training shapes as they stand, with the extents of the body, facing as it does or either way.
+  // Training shapes in their own pose with the extents of the body, with the same heading or both.
   std::vector<Start> laid_over(bool either_way) {
     const SurfaceAnalysis& analysis = *detection_.analysis;
     const Matrix3 about_up = Eigen::AngleAxisd(EIGEN_PI, Vector3::UnitY()).toRotationMatrix();
@@ -142,7 +142,7 @@ class Fitting {
 
   bool has_other_side(size_t joint) const { return counterpart_[joint] >= 0; }
 
-  // Whether the joints lie nearer to the start with its sides exchanged.
+  // Whether the joints are nearer to the start with its sides exchanged.
   bool is_reversed(const FittedShape& fit) const {
     double as_it_is = 0, exchanged = 0;
     for (size_t j = 0; j < counterpart_.size(); ++j)
@@ -168,7 +168,8 @@ class Fitting {
   }
 
  private:
-  // Whether a limb lies on the other side than the roots of the body's other limbs: their ends swing to and fro.
+  // Whether a limb is on the other side than the roots of the body's other limbs, because the ends of limbs
+  // swing.
   bool is_crossed(const Posture& posture, const std::vector<size_t>& limb) const {
     Vector3 of_limb = Vector3::Zero(), of_roots = Vector3::Zero();
     for (size_t j = 0; j < counterpart_.size(); ++j) {
@@ -183,14 +184,14 @@ class Fitting {
     return of_limb.dot(of_roots) < 0;
   }
 
-  // A joint of the middle gets the turn of the next one, as the trunk above the hips has it.
+  // A joint without a side gets the rotation of the next one, like the trunk above the hips.
   void untwist(const ArticulatedFit& fit, size_t joint, Posture& posture) const {
     for (size_t j = 0; j < counterpart_.size(); ++j)
       if (start_.joints[j].parent == static_cast<int32_t>(joint) && counterpart_[j] < 0 && fit.has(j))
         posture.turn[joint] = posture.turn[j];
   }
 
-  // A joint and those below it that have another side.
+  // A joint and its descendants that have a counterpart.
   std::vector<size_t> limb_from(size_t root) const {
     std::vector<char> is_in(start_.joints.size(), 0);
     std::vector<size_t> limb;
@@ -203,7 +204,7 @@ class Fitting {
     return limb;
   }
 
-  // Joint `to` comes where `from` was, with its bone along the other's.
+  // Moves joint `to` to the position of `from`, with its bone along the other's.
   static void take_place(const ArticulatedFit& fit, const Posture& before, size_t from, size_t to,
                          Posture& posture) {
     if (!fit.has(from) || !fit.has(to)) return;
@@ -213,7 +214,7 @@ class Fitting {
     posture.length[to] = before.length[from], posture.girth[to] = before.girth[from];
   }
 
-  // Those of the shapes that are not there yet.
+  // Creates the fits that do not exist yet.
   void make_fits(std::vector<int32_t> shapes) {
     std::sort(shapes.begin(), shapes.end());
     shapes.erase(std::unique(shapes.begin(), shapes.end()), shapes.end());
@@ -267,7 +268,7 @@ class Fitting {
       const double along = std::log(scale.cwiseProduct(fit.bone(j)).norm());
       const auto at = static_cast<Eigen::Index>(j);
       result.length[at] = along;
-      result.girth[at] = std::clamp(1.5 * mean_scale - 0.5 * along, -1.0, 1.0);  // the volume is kept
+      result.girth[at] = std::clamp(1.5 * mean_scale - 0.5 * along, -1.0, 1.0);  // preserves the volume
     }
     return result;
   }
@@ -278,7 +279,8 @@ class Fitting {
   const Execution& execution_;
   FitTarget target_;
   std::vector<int32_t> counterpart_;
-  std::vector<std::unique_ptr<const ArticulatedFit>> fits_;  // per shape of the exemplars, those made so far
+  // Per shape of the exemplars, those created so far.
+  std::vector<std::unique_ptr<const ArticulatedFit>> fits_;
 };
 
 double apart(const std::vector<Vector3>& a, const std::vector<Vector3>& b) {
@@ -291,7 +293,7 @@ double agreement_of(const std::vector<Vector3>& a, const std::vector<Vector3>& b
   return 1 / (1 + std::pow(apart(a, b) / agreement, 4));
 }
 
-// Distances from fixed joints that have another side; nothing where there are none.
+// Mean distance from fixed joints that have a counterpart; empty without such joints.
 std::optional<double> away_from(const FixedJoints& fixed, const Fitting& fitting, const FittedShape& fit) {
   std::optional<double> sum;
   for (size_t j = 0; j < fixed.size(); ++j)
@@ -300,7 +302,7 @@ std::optional<double> away_from(const FixedJoints& fixed, const Fitting& fitting
   return sum;
 }
 
-// Those that face the way that fixed joints or else the best of them says, the best first.
+// Keeps the fits with the heading of the fixed joints or, without these, of the best fit; best first.
 void choose_heading(const Fitting& fitting, bool may_reverse, const FixedJoints& fixed, BodyFit& result) {
   std::vector<FittedShape> kept[2];
   for (FittedShape& one : result.shapes)

@@ -1,5 +1,6 @@
-// Rigged training shapes fitted to a detected body, from every start that is likely: as the maps place them, the same with front and
-// back exchanged, and laid over the body as they stand. Which ends nearest to the body decides how it faces and where its joints lie.
+// Fits rigged training shapes to a detected body from every likely start: as the maps place them, the same
+// with front and back exchanged, and overlaid on the body in their own pose. The best fit determines the
+// heading of the body and the positions of its joints.
 #pragma once
 #include <limits>
 #include <vector>
@@ -14,28 +15,30 @@ namespace focal {
 struct FittedShape {
   int32_t shape = 0;    // of the exemplars
   double residual = 0;  // see ArticulatedFit
-  double share = 1;     // how much it counts beside the others, 0..1
+  double share = 1;     // relative weight, 0..1
   Posture posture;      // in the coordinates of the analysed surface
   std::vector<Vector3> tip;
   MatrixX3 points;
 };
 
 struct BodyFit {
-  std::vector<FittedShape> shapes;  // those that agree with the best, which comes first
-  double start_share = 0;    // likewise, of the joints that the maps agreed on; 0 where the fits left them
-  bool is_reversed = false;  // the body faces the other way than the maps suppose
-  // By how much the best fit that faces the other way lies farther from the body, as a share; infinite: none was tried.
+  std::vector<FittedShape> shapes;  // those that agree with the best, which is first
+  // Relative weight of the joints from the maps; 0 where the fits moved away from them.
+  double start_share = 0;
+  bool is_reversed = false;  // the heading is opposite to that of the maps
+  // How much larger the residual of the best fit with the opposite heading is, as a fraction; infinite: none
+  // was tried.
   double heading_margin = std::numeric_limits<double>::infinity();
 };
 
-// start: where the maps suppose the joints. maps: of rigged shapes, not empty. may_reverse: the body may face the other way than they
-// suppose. fixed: joints whose places are known, in the coordinates of the analysed surface; those that have another side say how it
-// faces.
+// start: the joints according to the maps. maps: of rigged shapes, not empty. may_reverse: the body may have
+// the opposite heading. fixed: joints of known positions, in the coordinates of the analysed surface; those
+// with a counterpart determine the heading.
 BodyFit fit_to_body(const Detection& detection, const std::vector<ShapeMap>& maps,
                     const PlacedSkeleton& start, bool may_reverse, const FixedJoints& fixed,
                     const Execution& execution);
 
-// The maps that fits amount to.
+// Converts fits to maps.
 std::vector<ShapeMap> maps_of_fits(const BodyFit& fit, const LandmarkModel& model,
                                    const SurfaceAnalysis& analysis, const Execution& execution);
 

@@ -9,9 +9,9 @@
 namespace focal {
 namespace {
 
-constexpr double heat_of_hidden = 1e-4;  // of what a bone gives that is seen: only where none is
-constexpr double min_distance = 1e-3;    // of sqrt(area): a bone in the skin
-constexpr double same_distance = 1.02;   // bones about as near share a vertex
+constexpr double heat_of_hidden = 1e-4;  // of the heat of a visible bone: used only where no bone is visible
+constexpr double min_distance = 1e-3;    // in sqrt(area): a bone in the skin
+constexpr double same_distance = 1.02;   // bones within this ratio of distances share a vertex
 
 Vector3 nearest_on(const Bone& bone, const Vector3& p) {
   const Vector3 along = bone.to - bone.from;
@@ -20,7 +20,7 @@ Vector3 nearest_on(const Bone& bone, const Vector3& p) {
   return bone.from + std::clamp(along.dot(p - bone.from) / squared, 0.0, 1.0) * along;
 }
 
-// Whether the straight way from a vertex to a place stays inside.
+// Whether the straight line from a vertex to a position stays inside.
 bool sees(const RayCaster& rays, const Vector3& vertex, const Vector3& normal, const Vector3& place) {
   const Vector3 way = place - vertex;
   if (way.dot(normal) > 0) return false;
@@ -42,7 +42,7 @@ Source source_of(const RayCaster& rays, const Vector3& vertex, const Vector3& no
   std::vector<Candidate> near;
   for (const Bone& bone : bones) near.push_back({(nearest_on(bone, vertex) - vertex).norm(), &bone});
   std::sort(near.begin(), near.end(), [](const auto& a, const auto& b) { return a.distance < b.distance; });
-  // The nearest that is seen; bones behind twice the distance of the nearest one are other limbs'.
+  // The nearest visible bone; bones farther than twice the nearest one belong to other limbs.
   const auto seen = std::find_if(near.begin(), near.end(), [&](const Candidate& one) {
     return one.distance < 2 * near[0].distance + min_distance &&
            sees(rays, vertex, normal, nearest_on(*one.bone, vertex));

@@ -10,8 +10,9 @@
 namespace focal {
 namespace {
 
-// One bone as each convention writes it: VRM, Mixamo (without its prefix), Unreal mannequin, Rigify's deforming bones, 3ds Max Biped
-// (without its prefix), Daz, CC and iClone, Quaternius, KayKit. %: the side. "": the convention has no such bone, or none of its own.
+// One bone in the spelling of each convention: VRM, Mixamo (without its prefix), Unreal mannequin, Rigify's
+// deforming bones, 3ds Max Biped (without its prefix), Daz, CC and iClone, Quaternius, KayKit. %: the side.
+// "": the convention has no such bone, or no name of its own for it.
 struct Bone {
   const char *vrm, *mixamo, *unreal, *rigify, *biped, *daz, *cc, *quaternius, *kaykit;
 };
@@ -73,7 +74,7 @@ constexpr Bone bones[] = {
      "CC_Base_%_Pinky3", "Pinky3.%", ""},
 };
 
-constexpr std::string_view deforming = "DEF-";  // Rigify's bones, which its metarig calls the same without it
+constexpr std::string_view deforming = "DEF-";  // Rigify's bones; its metarig uses the same names without it
 
 bool is_upper(char c) { return std::isupper(static_cast<unsigned char>(c)); }
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)); }
@@ -84,7 +85,7 @@ std::string with_side(std::string name, const char* side) {
   return name;
 }
 
-// The bone in every convention, by BoneNames less one.
+// The bone in every convention, indexed by BoneNames minus one.
 using Names = std::array<std::string, 6>;
 
 Names names_of(const Bone& bone, bool left) {
@@ -109,12 +110,12 @@ std::vector<Names> all_bones() {
 }
 
 bool is_called(const Names& names, const std::string& name) {
-  constexpr size_t understood = 5;  // not the metarig's: there `spine` are the hips
+  constexpr size_t understood = 5;  // without the metarig's, where `spine` are the hips
   if (std::find(names.begin(), names.begin() + understood, name) != names.begin() + understood) return true;
   return names[1] == "mixamorig:" + name;  // the prefix is often dropped
 }
 
-// Viewers drop dots, exporters write them as underscores.
+// Viewers drop dots, exporters replace them by underscores.
 std::string plain(const std::string& name) {
   std::string result;
   for (const char c : name)
@@ -122,7 +123,7 @@ std::string plain(const std::string& name) {
   return result;
 }
 
-using Table = std::map<std::string, std::string>;  // a plain name of a convention -> VRM's
+using Table = std::map<std::string, std::string>;  // normalised name in a convention -> VRM's
 
 template <class Writer>
 Table table_of(const Writer& written) {
@@ -152,7 +153,8 @@ std::vector<Table> all_tables() {
 
 using Words = std::vector<std::string>;
 
-// Runs of letters, cut where a small letter meets a capital, in small letters; a prefix before the last colon is left out.
+// Runs of letters, split at changes from lower to upper case, in lower case; a prefix before the last colon
+// is dropped.
 Words words_of(const std::string& name) {
   const std::string text = name.substr(name.rfind(':') == std::string::npos ? 0 : name.rfind(':') + 1);
   Words words;
@@ -167,7 +169,7 @@ Words words_of(const std::string& name) {
   return words;
 }
 
-// A side at the head or the end of a word that is written as one: leftarm, armleft.
+// Splits off a side at the start or the end of a word: leftarm, armleft.
 void split_sides(Words& words) {
   Words result;
   for (const std::string& word : words) {
@@ -184,7 +186,7 @@ void split_sides(Words& words) {
   words = std::move(result);
 }
 
-// One of these, and the joint is a helper, a control, or of something else than a humanoid's body.
+// Words that mark a joint as a helper, a control, or not part of a humanoid's body.
 const std::set<std::string>& foreign_words() {
   static const std::set<std::string> words = {
       "twist", "roll",   "ik",     "fk",    "pole", "target", "ctrl",   "control", "end",
@@ -212,7 +214,7 @@ const std::map<std::string, std::string>& kinds() {
   return all;
 }
 
-// Words that say nothing of the role: who wrote the file, and what every bone is.
+// Words without information on the role: the program that wrote the file, and generic words for bones.
 const std::set<std::string>& empty_words() {
   static const std::set<std::string> words = {
       "mixamorig", "bip", "valvebiped", "def",      "org",       "bone", "joint",   "jnt",    "sk",
@@ -290,7 +292,7 @@ std::optional<std::string> mirrored_name(const std::string& name) {
   };
   for (const Sides& sides : words)
     for (size_t at = name.find(sides.from); at != std::string::npos; at = name.find(sides.from, at + 1))
-      // "bright" and "cleft" have no side.
+      // "bright" and "cleft" contain no side.
       if (at == 0 || !letter_at(at - 1) ||
           (std::isupper(static_cast<unsigned char>(name[at])) &&
            std::islower(static_cast<unsigned char>(name[at - 1]))))

@@ -19,7 +19,7 @@ class Roles {
 
   std::vector<std::string> find() {
     const bool at_its_word = has_hidden_hips();
-    // Daz has a hip and a pelvis.
+    // Daz has both a hip and a pelvis.
     take_convention([&](const BoneKind& kind) { return at_its_word || is_hips(kind); });
     take_known_names();
     take_convention([](const BoneKind& kind) { return kind.what.empty(); });
@@ -47,8 +47,8 @@ class Roles {
     return true;
   }
 
-  // Whether the hips have a name that only the convention of all the names explains: Rigify's metarig calls them `spine`. A convention
-  // has no names for the legs of an animal.
+  // Whether the hips have a name that only the convention of all names explains: Rigify's metarig calls them
+  // `spine`. A convention has no names for the legs of an animal.
   bool has_hidden_hips() const {
     for (const BoneKind& kind : kind_)
       if (is_hips(kind) || kind.of_quadruped) return false;
@@ -61,7 +61,7 @@ class Roles {
       if (!in_convention_[j].empty() && wanted(kind_[j])) give(j, in_convention_[j]);
   }
 
-  // But for those that mean another bone in other skeletons: LeftLeg, LeftArm, Shoulder.
+  // Except for names that mean another bone in other skeletons: LeftLeg, LeftArm, Shoulder.
   void take_known_names() {
     static const std::set<std::string> ambiguous = {"arm", "leg", "shoulder"};
     for (size_t j = 0; j < joints_.size(); ++j)
@@ -76,7 +76,7 @@ class Roles {
       if (kind_[j].what == what && kind_[j].side == 0) give(j, what);
   }
 
-  // Whether a joint below, on the same side, is one of these.
+  // Whether a descendant on the same side is one of these.
   bool has_below(size_t joint, const std::set<std::string>& whats) const {
     for (size_t j = joint + 1; j < joints_.size(); ++j)
       if (kind_[j].side == kind_[joint].side && whats.contains(kind_[j].what) && is_above(joint, j))
@@ -94,7 +94,8 @@ class Roles {
     return false;
   }
 
-  // "arm" and "leg" are the upper or the lower bone, by what hangs above; "shoulder" is the upper arm where there is no other.
+  // "arm" and "leg" are the upper or the lower bone, depending on the parent; "shoulder" is the upper arm if
+  // there is no other.
   void settle_limb(size_t j) {
     BoneKind& kind = kind_[j];
     if (kind.side == 0) return;
@@ -107,7 +108,7 @@ class Roles {
     if (limbs.contains(kind.what)) give(j, sided(kind.side, kind.what));
   }
 
-  // The joints between the hips and the neck, or the head where there is no neck, from below.
+  // The joints between the hips and the neck, or the head if there is no neck, from bottom to top.
   void settle_spine() {
     std::vector<size_t> chain;
     const auto top = std::find_if(role_.begin(), role_.end(), [](const auto& r) { return r == "neck"; });
@@ -124,7 +125,7 @@ class Roles {
     }
   }
 
-  // In the order in which they hang; a thumb has a metacarpal, the others begin with the proximal bone.
+  // In the order of the hierarchy; a thumb has a metacarpal, the others start with the proximal bone.
   void settle_finger(const std::string& finger, char side) {
     const std::vector<std::string> bones =
         finger == "Thumb" ? std::vector<std::string>{"Metacarpal", "Proximal", "Distal"}
@@ -153,7 +154,7 @@ std::vector<std::string> names_by_role(const std::vector<Joint>& joints, BoneNam
   known = 0;
   for (size_t j = 0; j < joints.size(); ++j) {
     const auto renamed = bone_name(roles[j].empty() ? joints[j].name : roles[j], convention);
-    // A second joint of the same role keeps its name: no two may have one.
+    // A second joint of the same role keeps its name: roles are unique.
     const bool is_new = renamed && std::find(names.begin(), names.end(), *renamed) == names.end();
     known += is_new;
     names.push_back(is_new ? *renamed : joints[j].name);

@@ -91,7 +91,7 @@ void make_bones_symmetric(CharacterRig& character) {
   auto& joints = character.rig.joints;
   const std::vector<int32_t> other = other_sides(joints);
   const auto place = [&](size_t j) -> Vector3 { return joints[j].bind.topRightCorner<3, 1>(); };
-  std::vector<double> length(joints.size(), 0);  // as found
+  std::vector<double> length(joints.size(), 0);  // before the change
   for (size_t j = 0; j < joints.size(); ++j)
     if (joints[j].parent >= 0) length[j] = (place(j) - place(static_cast<size_t>(joints[j].parent))).norm();
   for (size_t j = 0; j < joints.size(); ++j) {

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double min_length = 1e-6;
 
-// From where bones branch to the joint whose part ends the limb.
+// From the branching of bones to the joint whose part is the end of the limb.
 struct Chain {
   int32_t begin = 0, end = 0, tip = 0;  // tip: number of the landmark
 };
@@ -41,7 +41,7 @@ double median(std::vector<double>& values) {
   return *middle;
 }
 
-// Per chain the least ratio to another one; infinite: unknown.
+// Per chain the smallest ratio to another one; infinite: unknown.
 template <class Distance, class Length>
 std::vector<double> min_ratios(const std::vector<Chain>& chains, const Distance& distance,
                                const Length& length) {
@@ -69,7 +69,7 @@ std::vector<double> ratios_of_shape(const Exemplar& shape, const std::vector<Cha
       });
 }
 
-// Per chain the median over the training shapes; 0: none has it.
+// Per chain the median over the training shapes; 0: no shape has it.
 std::vector<double> taught_ratios(const LandmarkModel& model, const std::vector<Chain>& chains) {
   std::vector<std::vector<double>> all(chains.size());
   for (const Exemplar& shape : model.exemplars) {
@@ -83,9 +83,10 @@ std::vector<double> taught_ratios(const LandmarkModel& model, const std::vector<
   return result;
 }
 
-// A little beyond the last joint of a chain: inside the finger, where there is one. The tip itself may be taken for a neighbour's.
+// Slightly beyond the last joint of a chain: inside the finger, if there is one. The tip itself may be
+// detected on a neighbour.
 Vector3 end_of(const Chain& chain, const CharacterRig& rig) {
-  constexpr double beyond = 0.3;  // of the last bone
+  constexpr double beyond = 0.3;  // relative to the last bone
   const auto place = [&](int32_t j) -> Vector3 { return rig.rig.joints[j].bind.topRightCorner<3, 1>(); };
   const int32_t before = rig.rig.joints[chain.end].parent;
   return before < 0 ? place(chain.end)

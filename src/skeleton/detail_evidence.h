@@ -1,4 +1,4 @@
-// Whether a mesh shows what a part's joints are for: a mitten has no fingers to place them in.
+// Evidence that a mesh has the parts of some joints: a mitten has no fingers to place them in.
 #pragma once
 #include <vector>
 
@@ -6,12 +6,13 @@
 
 namespace focal {
 
-// How far apart along the surface the end of a chain of joints lies from the next one, over the length of both chains, and over the
-// same on the training shapes; the median of the chains. About 1 for a hand with fingers, near 0 where they are one. 1 where nothing
-// is known of it.
+// Distance along the surface from the end of a chain of joints to the next one, relative to the length of
+// both chains, and relative to the same on the training shapes; the median of the chains. About 1 for a hand
+// with fingers, near 0 where they are fused. 1 where it is unknown.
 double median_separateness(const Detection& part, const CharacterRig& rig);
 
-// Mean |log| of the bones' lengths, each over that of the reference: how far the joints found are from any the training shapes have.
+// Mean |log| of the bones' lengths relative to the reference: how far the joints differ from the training
+// shapes.
 double bone_strain(const std::vector<Vector3>& reference, const CharacterRig& rig);
 
 }  // namespace focal

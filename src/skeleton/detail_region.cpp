@@ -10,10 +10,11 @@
 namespace focal {
 namespace {
 
-constexpr int32_t min_joints = 4;  // beyond the root; fewer are as well found on the whole body
-constexpr double longest_bone =
-    0.075;  // median beyond the root, of sqrt(area): four edges of a proxy of 3,500 vertices
-constexpr double part_weight = 0.5;  // a vertex with less from the part's joints belongs to another limb
+constexpr int32_t min_joints = 4;  // beyond the root; fewer are found equally well on the whole body
+// Median length beyond the root, in sqrt(area): four edges of a proxy of 3,500 vertices.
+constexpr double longest_bone = 0.075;
+// Vertices with less weight from the part's joints belong to another limb.
+constexpr double part_weight = 0.5;
 
 std::vector<std::optional<Vector3>> places_in(const std::vector<SkeletonJoint>& skeleton, const Rig& rig) {
   std::map<std::string, Vector3> place;
@@ -26,7 +27,7 @@ std::vector<std::optional<Vector3>> places_in(const std::vector<SkeletonJoint>& 
   return result;
 }
 
-// Median length of the bones beyond the root over all characters, of their sizes; 0: none has such a bone.
+// Median length of the bones beyond the root over all characters, relative to their sizes; 0: no such bones.
 double bone_length(const std::vector<SkeletonJoint>& skeleton, const std::vector<char>& is_below,
                    int32_t root, const std::vector<SizedRig>& characters) {
   std::vector<double> lengths;
@@ -44,7 +45,7 @@ double bone_length(const std::vector<SkeletonJoint>& skeleton, const std::vector
   return *middle;
 }
 
-// Triangles that the plane y = start leaves, with vertices in the order in which they are met.
+// Cuts triangles at the plane y = start; vertices are in order of first use.
 class Cutter {
  public:
   Cutter(const MatrixX3& places, const std::vector<VertexInfluences>& influences, double start,
@@ -115,7 +116,7 @@ std::vector<int32_t> detail_joints(const std::vector<SkeletonJoint>& skeleton,
   std::vector<int32_t> children(skeleton.size(), 0), result;
   for (const SkeletonJoint& joint : skeleton)
     if (joint.parent >= 0) ++children[joint.parent];
-  std::vector<char> has_detail(skeleton.size(), 0);  // at or below it
+  std::vector<char> has_detail(skeleton.size(), 0);  // at the joint or below it
   for (int32_t j = count; j-- > 0;) {
     const int32_t p = skeleton[j].parent;
     if (!has_detail[j] && children[j] >= 2) {

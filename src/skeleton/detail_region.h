@@ -1,5 +1,5 @@
-// A part of the body with many short bones, such as a hand. The whole body's proxy gives it too few vertices; cut out of the
-// caller's own triangles it is analysed at a resolution of its own.
+// A body part with many short bones, such as a hand. The whole body's proxy has too few vertices there, so
+// the part is cut out of the caller's own triangles and analysed at its own resolution.
 #pragma once
 #include <vector>
 
@@ -8,8 +8,9 @@
 
 namespace focal {
 
-// Joints of the skeleton whose parts are worth it: bones branch there, and those beyond are many and short beside the edges of a
-// proxy. characters: rigs with the skeleton's names, and the square root of the area of each one's surface, in the same units.
+// Joints of the skeleton whose parts qualify: bones branch there, and those beyond are many and short
+// relative to the edges of a proxy. characters: rigs with the skeleton's names, and the square root of the
+// area of each one's surface, in the same units.
 struct SizedRig {
   const Rig* rig;
   double size;
@@ -17,7 +18,7 @@ struct SizedRig {
 std::vector<int32_t> detail_joints(const std::vector<SkeletonJoint>& skeleton,
                                    const std::vector<SizedRig>& characters);
 
-// Per joint: whether it is the root or hangs on it. Parents come before their children.
+// For each joint whether it is the root or a descendant of it. Parents come before their children.
 template <class AnyJoint>
 std::vector<char> at_or_below(const std::vector<AnyJoint>& joints, int32_t root) {
   std::vector<char> result(joints.size(), 0);
@@ -26,24 +27,25 @@ std::vector<char> at_or_below(const std::vector<AnyJoint>& joints, int32_t root)
   return result;
 }
 
-// The joints of such a part: its root's parent, where it has one, its root, and all that hang on it, in the skeleton's order.
+// The joints of such a part: its root's parent, if it has one, its root, and all descendants, in the
+// skeleton's order.
 std::vector<int32_t> joints_of_part(const std::vector<SkeletonJoint>& skeleton, int32_t root);
 
-inline constexpr double root_trust =
-    3;  // of the root's place beside one of the joints beyond it, where frames are fitted
+// Weight of the root's position relative to one of the joints beyond it, when frames are fitted.
+inline constexpr double root_trust = 3;
 
-// A frame of which +Y leads from the part's root to where its bones end and X across them, with the root at its origin.
-// places: of the joints of the part; first of them the root's.
+// A frame with +Y from the part's root to the end of its bones and X across them, with the root at its
+// origin. places: of the joints of the part; first of them the root's.
 Similarity frame_of(const std::vector<Vector3>& places);
 
 struct DetailRegion {
   TriangleMesh mesh;                         // in the part's frame
-  std::vector<VertexInfluences> influences;  // of the character's joints, one a vertex
-  std::vector<int32_t> source_vertex;        // per vertex: the character's, or -1 where the cut runs
+  std::vector<VertexInfluences> influences;  // of the character's joints, one entry per vertex
+  std::vector<int32_t> source_vertex;        // per vertex: the character's, or -1 on the cut
 };
 
-// Cuts the part out of the triangles: what the joints of the part move, above `start` in the part's frame. frame: from the part's
-// frame to the triangles' coordinates.
+// Cuts the part out of the triangles: the surface that the part's joints move, above `start` in the part's
+// frame. frame: from the part's frame to the triangles' coordinates.
 DetailRegion cut_region(const TriangleMesh& mesh, const std::vector<VertexInfluences>& influences,
                         const std::vector<char>& is_of_part, const Similarity& frame, double start);
 

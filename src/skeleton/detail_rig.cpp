@@ -14,14 +14,15 @@
 namespace focal {
 namespace {
 
-constexpr int32_t fewest_triangles = 40;  // of a region that shows more than the whole body's proxy does
+constexpr int32_t fewest_triangles = 40;  // of a region with more detail than the whole body's proxy
 constexpr int32_t votes = 400;
-// What speaks for joints in a part: chains that are as separate as on the training shapes (1), surfaces that bulge alike, bones of
-// like lengths. Hands with fingers of other game packs have 1.02 and more, mittens up to 1.01. Less
-// does where the part of the other side has enough.
+// Evidence for joints in a part: chains as separate as on the training shapes (1), agreement of the bulge,
+// bones of similar lengths. Hands with fingers of other game packs have 1.02 and more, mittens up to 1.01.
+// Less is enough where the part of the other side has enough.
 constexpr double separate_share = 2, bulge_share = 2, enough_support = 1.05, enough_beside_pair = 0.7;
 
-// The frame in which most joints of the part lie as in the mean of the training shapes: some of them may lie anywhere.
+// The frame in which most joints of the part are at the mean of the training shapes; some of them may be
+// outliers.
 Similarity found_frame(const DetailModel& detail, const CharacterRig& rig,
                        const std::vector<char>& is_below) {
   constexpr int rounds = 12;
@@ -52,8 +53,8 @@ Similarity found_frame(const DetailModel& detail, const CharacterRig& rig,
   return frame;
 }
 
-// By the limb that ends in the part, where the joints beyond it say too little: turned as the part's root, with its size in
-// proportion to the limb's.
+// From the limb that ends in the part, where the joints beyond it are not sufficient: with the rotation of
+// the part's root and the size proportional to the limb's.
 Similarity frame_of_limb(const DetailModel& detail, const CharacterRig& rig, const Similarity& usual) {
   const auto& joints = rig.rig.joints;
   const auto number_of = [&](int32_t joint) {
@@ -75,8 +76,8 @@ Similarity frame_of_limb(const DetailModel& detail, const CharacterRig& rig, con
   return frame;
 }
 
-// To steps far above what rounding does to the joints: the grid of cells in the frame would otherwise fall differently on another
-// machine, and for a model that was saved.
+// Rounds to steps much larger than rounding errors of the joints: otherwise the grid of cells in the frame
+// would differ on another machine, and for a model that was saved.
 Similarity rounded(Similarity frame) {
   constexpr double steps = 512;
   const auto whole = [](double x) { return std::round(steps * x) / steps; };
@@ -94,7 +95,7 @@ bool are_alike(const Similarity& a, const Similarity& b) {
          std::abs(std::log(a.scale / b.scale)) < sized && (a.offset - b.offset).norm() < moved * a.scale;
 }
 
-// What one look at the part found, and how much speaks for it.
+// The result of one analysis of the part, and its evidence.
 struct Look {
   Similarity frame;
   DetailRegion region;
@@ -102,9 +103,9 @@ struct Look {
   double support = -std::numeric_limits<double>::infinity();
 };
 
-// Nothing speaks for a part that does not hang where the body ends.
+// No evidence for a part that is not at the end of the limb.
 double support_of(const Detection& found, const CharacterRig& rig, const DetailModel& detail) {
-  constexpr double farthest_root = 0.5;  // from where the body's rig has it, in the part's frame
+  constexpr double farthest_root = 0.5;  // distance from its position in the body's rig, in the part's frame
   for (size_t i = 0; i < detail.joints.size(); ++i)
     if (detail.joints[i] == detail.joint &&
         (rig.rig.joints[i].bind.topRightCorner<3, 1>() - detail.reference[i]).norm() > farthest_root)
@@ -130,13 +131,13 @@ Look look_at(const DetailModel& detail, const Detection& detection, const Charac
     look.rig = transfer_rig(found, execution, false, influences);
     look.support = support_of(found, look.rig, detail);
   } catch (const Error& error) {
-    if (error.status() == Status::cancelled) throw;  // else there is nothing to be seen of the part
+    if (error.status() == Status::cancelled) throw;  // otherwise the part cannot be analysed
   }
   return look;
 }
 
-// The weights of the part, which come from its own rig, share what the whole-body rig gives to the part; without a rig its root
-// takes them all.
+// The weights of the part, from its own rig, divide the weight that the whole-body rig gives to the part;
+// without a rig its root gets all of it.
 void share_weights(const DetailModel& detail, const std::vector<char>& is_below, int32_t influences,
                    size_t source, const VertexInfluences* own, Rig& rig) {
   const auto influences_of = [&](const auto& use) {
@@ -181,7 +182,8 @@ void take_over(const Look& look, const DetailModel& detail, const std::vector<ch
                     rig.rig);
 }
 
-// The joints lie as on the training shapes and move nothing: the mesh has no such parts, as a mitten has no fingers.
+// The joints are at the mean of the training shapes and move no vertex: the mesh has no such parts, like a
+// mitten without fingers.
 void leave_out(const Look& look, const DetailModel& detail, const std::vector<char>& is_below,
                int32_t influences, CharacterRig& rig) {
   auto& joints = rig.rig.joints;
@@ -218,7 +220,7 @@ Look best_look(const DetailModel& detail, const Detection& detection, int32_t in
   return look;
 }
 
-// A part is there where enough speaks for it; less does where the same part of the other side is there.
+// A part exists if there is enough evidence; less is required where the same part of the other side exists.
 std::vector<char> are_there(const std::vector<DetailModel>& details, const std::vector<Look>& looks,
                             const std::vector<Joint>& joints) {
   const std::vector<int32_t> other = other_sides(joints);

@@ -1,5 +1,5 @@
-// The second look at parts with many short bones: each is cut out of the mesh's own triangles, analysed by itself, and its joints
-// and weights take the place of those of the whole-body rig.
+// The second analysis of parts with many short bones: each is cut out of the mesh's own triangles and
+// analysed on its own, and its joints and weights replace those of the whole-body rig.
 #pragma once
 #include "skeleton/character_rig.h"
 

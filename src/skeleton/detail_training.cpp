@@ -10,11 +10,11 @@
 namespace focal {
 namespace {
 
-// Of a part: more add little to what a hand looks like, but much to the file.
+// Training characters per part: more improve the part's model little and enlarge the file.
 constexpr size_t max_teachers = 10;
 constexpr int32_t fewest_shapes = 12;
 constexpr int32_t landmarks = 24;
-// Beyond the root's end of the part, in its frame: enough of the limb below to see where the part begins.
+// Length of limb below the root that is included, in the part's frame: enough to find the start of the part.
 constexpr double limb_below = 0.25, limb_before_bones = 1.5;
 
 TrainParams params_of_part(uint64_t seed) {
@@ -30,7 +30,7 @@ TrainParams params_of_part(uint64_t seed) {
   return params;
 }
 
-// One character's joints of the part: numbers in its own rig, -1 where it lacks one.
+// The part's joints of one character: numbers in its own rig, -1 for a missing one.
 std::vector<int32_t> own_joints(const Rig& rig, const std::vector<SkeletonJoint>& skeleton,
                                 const std::vector<int32_t>& part) {
   std::map<std::string, int32_t> number;
@@ -46,9 +46,9 @@ std::vector<int32_t> own_joints(const Rig& rig, const std::vector<SkeletonJoint>
 // A part of one skeleton, and the characters that have it.
 struct Part {
   std::vector<int32_t> joints;  // of the skeleton
-  size_t root = 0;              // among them; before it the limb below
+  size_t root = 0;              // index among them; before it is the limb below
   std::vector<const RiggedMesh*> teachers;
-  std::vector<std::vector<int32_t>> own;  // per teacher: own_joints
+  std::vector<std::vector<int32_t>> own;  // per training character: own_joints
 
   Vector3 place(size_t teacher, size_t i) const {
     return teachers[teacher]->rig.joints[own[teacher][i]].bind.topRightCorner<3, 1>();
@@ -88,7 +88,7 @@ Vector3 in_frame(const Similarity& frame, const Vector3& p) {
   return frame.rotation.transpose() * (p - frame.offset) / frame.scale;
 }
 
-// The mean places of the joints in the frame of the teacher that has most of them.
+// The mean positions of the joints in the frame of the training character that has most of them.
 std::vector<Vector3> mean_places(const Part& part) {
   const auto missing = [&](size_t t) { return std::count(part.own[t].begin(), part.own[t].end(), -1); };
   size_t first = 0;
@@ -107,7 +107,7 @@ std::vector<Vector3> mean_places(const Part& part) {
     for (size_t i = 0; i < part.joints.size(); ++i)
       if (part.own[t][i] >= 0) sum[i] += in_frame(own, part.place(t, i)), ++count[i];
   }
-  for (size_t i = 0; i < sum.size(); ++i)  // as the file keeps them
+  for (size_t i = 0; i < sum.size(); ++i)  // with the precision of the file
     reference[i] = count[i] > 0 ? Vector3((sum[i] / count[i]).cast<float>().cast<double>()) : Vector3::Zero();
   return reference;
 }
@@ -125,7 +125,7 @@ double start_of(const Part& part, const std::vector<SkeletonJoint>& skeleton,
       std::max(reference[part.root].y() - limb_below, begin.y() - limb_before_bones * reach));
 }
 
-// A teacher's part as a character of its own. Weights of joints beyond it are those of the limb below.
+// A training character's part as a separate character. Weights of joints outside it go to the limb below.
 RiggedMesh cut_out(const Part& part, size_t teacher, const std::vector<SkeletonJoint>& skeleton,
                    const std::vector<Vector3>& reference, double start, const Execution& execution) {
   const RiggedMesh& character = *part.teachers[teacher];

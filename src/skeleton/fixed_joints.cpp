@@ -6,9 +6,9 @@
 namespace focal {
 namespace {
 
-constexpr double shortest_bone = 1e-9;  // of a bone that has a direction
+constexpr double shortest_bone = 1e-9;  // shorter bones have no direction
 
-// Per joint the length of the bone to its parent, no shorter than a trifle of the reach.
+// For each joint the length of the bone to its parent, with a lower limit relative to the reach.
 std::vector<double> bone_lengths(const MovableSkeleton& skeleton, double reach) {
   std::vector<double> length(skeleton.place.size(), 0);
   for (size_t j = 0; j < length.size(); ++j)
@@ -17,8 +17,8 @@ std::vector<double> bone_lengths(const MovableSkeleton& skeleton, double reach) 
   return length;
 }
 
-// The linear system of the sum is a tree: eliminated from the leaves to the roots, solved back. Quadratic elements of the bones, their
-// lengths lumped at the joints.
+// The linear system is a tree: eliminated from the leaves to the roots, then solved back. Quadratic elements
+// along the bones, with their lengths lumped at the joints.
 std::vector<Vector3> displacements(const FixedJoints& fixed, double reach, const MovableSkeleton& skeleton) {
   const size_t count = skeleton.place.size();
   const std::vector<double> length = bone_lengths(skeleton, reach);

@@ -16,7 +16,7 @@ void add_ground_root(const std::string& name, const TriangleMesh& mesh, Characte
   Joint root{name};
   const Vector3 above = joints.front().bind.topRightCorner<3, 1>();
   root.bind.topRightCorner<3, 1>() = Vector3(above[0], mesh.positions.col(1).minCoeff(), above[2]);
-  for (Joint& joint : joints) ++joint.parent;  // roots hang on it now
+  for (Joint& joint : joints) ++joint.parent;  // it becomes the parent of the roots
   joints.insert(joints.begin(), root);
   character.tip.insert(character.tip.begin(), above);
   character.confidence.insert(character.confidence.begin(), 1);

@@ -37,7 +37,7 @@ bool is_helper_bone(const std::string& name) {
 std::vector<size_t> drop_helper_bones(CharacterRig& character) {
   auto& joints = character.rig.joints;
   std::vector<size_t> kept;
-  std::vector<int32_t> heir(joints.size());  // among those that are left
+  std::vector<int32_t> heir(joints.size());  // number among the remaining joints
   for (size_t j = 0; j < joints.size(); ++j) {
     const int32_t above = joints[j].parent < 0 ? -1 : heir[joints[j].parent];
     const bool goes = above >= 0 && is_helper_bone(joints[j].name);

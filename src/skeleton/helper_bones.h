@@ -1,4 +1,5 @@
-// Bones that only make a skin fold better: twist bones and helpers, which the joints above them can stand for.
+// Bones that only improve the deformation of a skin: twist bones and helpers, whose weights the joints above
+// them can take over.
 #pragma once
 #include <string>
 #include <vector>
@@ -7,11 +8,12 @@
 
 namespace focal {
 
-// By the words of its name: twist, roll, helper, corrective, share (UpperArmTwist, CC_Base_L_ElbowShareBone, thigh_twist_01_l).
+// Recognised by the words of its name: twist, roll, helper, corrective, share (UpperArmTwist,
+// CC_Base_L_ElbowShareBone, thigh_twist_01_l).
 bool is_helper_bone(const std::string& name);
 
-// Takes them out; the nearest joint above gets what they move and what hangs on them. Roots stay. The numbers of the joints that are
-// left, in order.
+// Removes them; their weights and children go to the nearest remaining joint above. Roots are kept. Returns
+// the numbers of the remaining joints, in order.
 std::vector<size_t> drop_helper_bones(CharacterRig& character);
 
 }  // namespace focal

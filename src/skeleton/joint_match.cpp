@@ -14,7 +14,7 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-// Prefixes that exporters write; the root joint may be called so itself, or lack it.
+// Prefixes that exporters write; the root joint may have the prefix as its name, or lack it.
 size_t known_prefix(const std::string& name) {
   const auto after_digits = [&](size_t at) {
     while (at < name.size() && std::isdigit(static_cast<unsigned char>(name[at]))) ++at;
@@ -31,7 +31,7 @@ size_t known_prefix(const std::string& name) {
   return 0;
 }
 
-// All of them: "Armature_mixamorig:".
+// Length of several prefixes: "Armature_mixamorig:".
 size_t known_prefixes(const std::string& name) {
   size_t all = 0;
   while (const size_t one = known_prefix(name.substr(all))) all += one;
@@ -48,7 +48,7 @@ size_t shared_prefix(const Names& names) {
   return names.size() > 1 ? length : 0;
 }
 
-// How long the prefix of each name is that does not count.
+// Length of the prefix of each name to ignore.
 std::vector<size_t> prefixes(const Names& names, Spelling spelling) {
   std::vector<size_t> result(names.size(), 0);
   if (spelling == Spelling::as_written) return result;
@@ -89,7 +89,7 @@ namespace {
 constexpr std::array spellings{Spelling::as_written, Spelling::without_prefix, Spelling::without_any_prefix,
                                Spelling::humanoid};
 
-// Finds what is still missing by one spelling. Returns how many it found.
+// Matches remaining names by one spelling. Returns the number of new matches.
 int32_t find_more(const Names& wanted, const Names& names, Spelling spelling, std::vector<char>& taken,
                   JointMatch& match) {
   std::map<std::string, size_t> places;
@@ -111,7 +111,8 @@ int32_t find_more(const Names& wanted, const Names& names, Spelling spelling, st
 
 JointMatch match_joints(const std::vector<std::string>& wanted, const std::vector<std::string>& names) {
   const JointMatch none{std::vector<int32_t>(wanted.size(), -1), std::vector<char>(wanted.size(), 0), {}};
-  // A "spine" is the hips of one program and the spine of another: the spelling that finds most comes first.
+  // "spine" means the hips in one program and the spine in another: the spelling with most matches comes
+  // first.
   Spelling first = Spelling::as_written;
   int32_t most = 0;
   for (const Spelling spelling : spellings) {

@@ -10,11 +10,12 @@
 namespace focal {
 namespace {
 
-constexpr float moves = 0.05F;         // what weighs less does not say how far a joint reaches
-constexpr double room = 1.25;          // bodies are stouter than those that teach
+constexpr float moves = 0.05F;         // smaller weights do not count for a joint's reach
+constexpr double room = 1.25;          // for bodies that are stouter than the training characters
 constexpr double min_reach = 0.03;     // of sqrt(area)
-constexpr double small_island = 0.15;  // of the largest part where a joint is the main one
-constexpr double fade = 0.6;  // of a bone's length: how far a joint reaches along the surface beyond its core
+constexpr double small_island = 0.15;  // relative to the largest part where a joint is the main one
+// Relative to a bone's length: how far a joint reaches along the surface beyond its core.
+constexpr double fade = 0.6;
 
 std::vector<int32_t> main_joints(const RowMatrixf& weights) {
   std::vector<int32_t> result;
@@ -25,7 +26,7 @@ std::vector<int32_t> main_joints(const RowMatrixf& weights) {
   return result;
 }
 
-// Connected vertices that have one main joint.
+// Connected vertices with the same main joint.
 struct Island {
   int32_t joint = -1;
   double area = 0;
@@ -51,7 +52,8 @@ std::vector<Island> islands_of(const std::vector<int32_t>& main, const SurfaceAn
   return islands;
 }
 
-// A joint is not the main one on a small part of the surface apart from its own while another joint's bone is nearer there.
+// Removes a joint as the main one from small separate parts of the surface where another joint's bone is
+// nearer.
 bool drop_islands(RowMatrixf& weights, const SurfaceAnalysis& analysis, const RowMatrixf& distance) {
   const std::vector<Island> islands = islands_of(main_joints(weights), analysis);
   std::vector<double> largest(static_cast<size_t>(weights.cols()), 0);
@@ -65,7 +67,7 @@ bool drop_islands(RowMatrixf& weights, const SurfaceAnalysis& analysis, const Ro
   return any;
 }
 
-// Lengths of the shortest paths along edges from the vertices where the joint is the main one, up to `most`.
+// Lengths of the shortest edge paths from the vertices where the joint is the main one, up to `most`.
 std::vector<float> ways_from_core(const std::vector<int32_t>& main, int32_t joint, float most,
                                   const SurfaceAnalysis& analysis) {
   std::vector<float> way(main.size(), std::numeric_limits<float>::infinity());
@@ -86,7 +88,7 @@ std::vector<float> ways_from_core(const std::vector<int32_t>& main, int32_t join
   return way;
 }
 
-// How long the bones of each joint are, the longest of them.
+// The length of the longest bone of each joint.
 std::vector<float> bone_lengths(const PlacedSkeleton& skeleton) {
   std::vector<float> length(skeleton.joints.size(), 0);
   for (size_t j = 0; j < length.size(); ++j) {
@@ -109,7 +111,7 @@ void drop_far_along_surface(RowMatrixf& weights, const SurfaceAnalysis& analysis
   }
 }
 
-// The nearest of the joints that reach so far; of all where none does.
+// The nearest of the joints within reach; of all joints where none is.
 Eigen::Index nearest_joint(const Eigen::Ref<const Eigen::RowVectorXf>& distance,
                            const std::vector<float>& reach) {
   Eigen::Index best = 0;

@@ -1,4 +1,4 @@
-// Takes weights of far joints off the vertices of a surface.
+// Removes weights of distant joints from the vertices of a surface.
 #pragma once
 #include <vector>
 
@@ -7,18 +7,20 @@
 
 namespace focal {
 
-// What the training shapes' own weights keep to.
+// Properties of the training shapes' own weights.
 struct WeightHabits {
-  std::vector<float>
-      reach;            // per joint: how far from its bones it moves what, of sqrt(area) of the character
-  RowMatrixf together;  // joints x joints: 1 where two of them move one place
+  // Per joint the largest distance from its bones to vertices that it moves, relative to sqrt(area) of the
+  // character.
+  std::vector<float> reach;
+  RowMatrixf together;  // joints x joints: 1 where two of them move the same vertex
 };
 
-// posed: the points of each map's shape, their joints at those of the skeleton.
+// posed: the points of each map's shape, with their joints moved to those of the skeleton.
 WeightHabits habits_of(const Teachers& teachers, const PlacedSkeleton& skeleton,
                        const std::vector<MatrixX3>& posed);
 
-// Each row keeps the joints near its vertex, scaled to sum 1; one that would lose all takes the nearest bone's.
+// Keeps in each row the joints near its vertex, scaled to sum 1; a row that would become empty gets the joint
+// of the nearest bone.
 void drop_leaks(RowMatrixf& weights, const SurfaceAnalysis& analysis, const PlacedSkeleton& skeleton,
                 const WeightHabits& habits);
 

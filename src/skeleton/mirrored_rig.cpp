@@ -11,15 +11,15 @@
 namespace focal {
 namespace {
 
-constexpr double same_place = 5e-4;  // of the mesh's diagonal
-constexpr double min_share = 0.5;    // of the vertices that have a partner
-constexpr double middle_reach =
-    0.03;  // of the diagonal: joints without a side that lie nearer to the plane come into it
-constexpr size_t max_searched = 20000;  // vertices that settle the plane
+constexpr double same_place = 5e-4;  // relative to the mesh's diagonal
+constexpr double min_share = 0.5;    // of the vertices with a counterpart
+// Relative to the diagonal: joints without a side that are nearer to the plane are moved into it.
+constexpr double middle_reach = 0.03;
+constexpr size_t max_searched = 20000;  // vertices used to refine the plane
 
 Vector3 place_in(const Matrix4& frame) { return frame.topRightCorner<3, 1>(); }
 
-// The direction along which these lie; x where there are none.
+// The common direction of vectors of either sign; x without vectors.
 Vector3 main_direction(const std::vector<Vector3>& ways) {
   Matrix3 sum = Matrix3::Zero();
   for (const Vector3& way : ways) sum += way * way.transpose();
@@ -27,7 +27,8 @@ Vector3 main_direction(const std::vector<Vector3>& ways) {
   return Eigen::SelfAdjointEigenSolver<Matrix3>(sum).eigenvectors().col(2);
 }
 
-// The plane across an axis, through 0, that may be what is meant where a plane lies near it: mirror images have the same digits then.
+// The plane perpendicular to an axis through 0, if the given plane is close to it: mirror images then have
+// the same digits.
 MirrorPlane snapped(MirrorPlane plane, double size) {
   Eigen::Index axis = 0;
   if (plane.normal.cwiseAbs().maxCoeff(&axis) > 1 - 1e-6) plane.normal = Vector3::Unit(axis);
@@ -35,7 +36,7 @@ MirrorPlane snapped(MirrorPlane plane, double size) {
   return plane;
 }
 
-// Between pairs of points, each the image of the other.
+// The plane between pairs of points that are mirror images.
 MirrorPlane plane_between(const std::vector<std::pair<Vector3, Vector3>>& pairs) {
   std::vector<Vector3> ways;
   for (const auto& [one, other] : pairs) ways.push_back(one - other);
@@ -53,7 +54,7 @@ MirrorPlane plane_of_joints(const std::vector<Matrix4>& frames, const std::vecto
   return pairs.empty() ? MirrorPlane{} : plane_between(pairs);
 }
 
-// Of points of one place the smallest number: numbers of the caller's vertices, which may be split along seams.
+// For points at the same position the smallest number: the caller's vertices may be split along seams.
 std::vector<int32_t> first_at_same_place(const MatrixX3& positions) {
   std::vector<int32_t> order(static_cast<size_t>(positions.rows())), first(order.size());
   std::iota(order.begin(), order.end(), 0);
@@ -64,7 +65,8 @@ std::vector<int32_t> first_at_same_place(const MatrixX3& positions) {
   return first;
 }
 
-// The planes between points and what lies nearest to their images approach the one that mirrors them onto each other.
+// Iterates the plane between points and the points nearest to their mirror images towards the best symmetry
+// plane.
 MirrorPlane settled(const MatrixX3& positions, const NearestVertex& near, MirrorPlane plane, double size) {
   const auto count = static_cast<size_t>(positions.rows());
   const size_t step = std::max<size_t>(1, count / max_searched);
@@ -82,7 +84,8 @@ MirrorPlane settled(const MatrixX3& positions, const NearestVertex& near, Mirror
   return plane;
 }
 
-// What stands for which turn on the other side: their axes are mirrored, and one of them or all three reversed. The turns decide which.
+// Relation of the joint axes of both sides: mirrored, with one of them or all three reversed. The rotations
+// decide which.
 Matrix3 axes_of_other(const Matrix3& turn, const Matrix3& mirrored) {
   Matrix3 best;
   double most = -std::numeric_limits<double>::infinity();
@@ -94,7 +97,8 @@ Matrix3 axes_of_other(const Matrix3& turn, const Matrix3& mirrored) {
   return best;
 }
 
-// Frames and tips of joints about one plane. share: per joint how much it counts against the other side's.
+// Makes frames and tips of joints symmetric about one plane. share: per joint its weight relative to its
+// counterpart.
 struct Mirror {
   MirrorPlane plane;
   const std::vector<int32_t>& other;
@@ -119,7 +123,7 @@ struct Mirror {
     pair = plane(one);
   }
 
-  // A joint without a side.
+  // Handles a joint without a side.
   void middle(Matrix4& frame) const {
     const Matrix3 turn = frame.topLeftCorner<3, 3>();
     const Matrix3 image = plane.turn() * turn;
@@ -133,7 +137,7 @@ struct Mirror {
   void apply(size_t j, const std::vector<Matrix4*>& frames, std::vector<Vector3>* tip, bool may_move) const {
     if (other[j] > static_cast<int32_t>(j)) {
       const auto k = static_cast<size_t>(other[j]);
-      // The one that counts more leads: it stays to the bit where it alone counts.
+      // The one of larger weight leads: it is unchanged to the bit if it has all the weight.
       const auto [a, b] = share[j] >= share[k] ? std::pair(j, k) : std::pair(k, j);
       frame(a, b, *frames[a], *frames[b]);
       if (tip) point(a, b, (*tip)[a], (*tip)[b]);
@@ -173,7 +177,7 @@ class MirroredWeights {
     return influences;
   }
 
-  // What is left of a vertex in the plane where the last of its joints has lost the one of the other side.
+  // The influences of a vertex in the plane when its last joint has lost its counterpart.
   std::vector<Influence> closed(std::vector<Influence> influences) const {
     const auto has = [&](int32_t joint) {
       return std::any_of(influences.begin(), influences.end(),
@@ -198,7 +202,7 @@ class MirroredWeights {
   const std::vector<int32_t>& other_;
   const std::vector<int32_t> first_;
   size_t most_ = max_influences;
-  std::vector<std::vector<Influence>> made_;  // at each place that has a partner
+  std::vector<std::vector<Influence>> made_;  // for each position with a counterpart
   std::vector<char> is_made_;
 };
 
@@ -206,7 +210,8 @@ double diagonal(const MatrixX3& positions) {
   return (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).norm();
 }
 
-// Where to look for the plane: the one given, and those that files are modelled about, where they lead from side to side as it does.
+// Initial planes: the given one, and the coordinate planes that files are usually modelled about, if they are
+// nearly parallel to it.
 std::vector<MirrorPlane> starts(const MatrixX3& positions, const MirrorPlane& near) {
   std::vector<MirrorPlane> all = {near};
   for (const int axis : {0, 1, 2}) {
@@ -284,8 +289,8 @@ void make_symmetric(const TriangleMesh& mesh, const FixedJoints& fixed, Characte
   if (vertices.share < min_share) {
     make_bones_symmetric(character);
     character.warnings.push_back(
-        "the mesh does not stand alike on both sides (" + percent(vertices.share) +
-        " of its vertices have a mirror image): bones of both sides get the same lengths, no more");
+        "the mesh is not symmetric (" + percent(vertices.share) +
+        " of its vertices have a mirror image): only the lengths of the bones are made equal");
     return;
   }
   mirror_joints(vertices.plane, other, fixed, middle_reach * diagonal(mesh.positions), character);

@@ -1,4 +1,4 @@
-// A rig of a body that stands alike on both sides, made exactly so.
+// Makes the rig of a symmetric body exactly symmetric.
 #pragma once
 #include "mesh/triangle_mesh.h"
 #include "skeleton/character_rig.h"
@@ -6,32 +6,33 @@
 
 namespace focal {
 
-// {x: normal . x = offset}
+// The plane {x: normal . x = offset}.
 struct MirrorPlane {
-  Vector3 normal = Vector3::UnitX();  // of length 1
+  Vector3 normal = Vector3::UnitX();  // unit length
   double offset = 0;
 
   Vector3 operator()(const Vector3& p) const { return p - 2 * (normal.dot(p) - offset) * normal; }
   Matrix3 turn() const { return Matrix3::Identity() - 2 * normal * normal.transpose(); }
 };
 
-// Per vertex the one of the smallest number at its place's mirror image, -1: none.
+// For each vertex the smallest number of a vertex at its mirror image, -1: none.
 struct MirroredVertices {
   MirrorPlane plane;
   std::vector<int32_t> partner;
-  double share = 0;  // of the vertices that have one
+  double share = 0;  // of the vertices with a counterpart
 };
 
-// By the plane that mirrors most vertices onto others, looked for from the one given.
+// Uses the plane that maps most vertices to others, searched from the given one.
 MirroredVertices mirrored_vertices(const MatrixX3& positions, const MirrorPlane& near);
 
-// Joints of both sides, whose names identify them, and weights of vertices that are mirror images of each other become mirror images
-// too; joints without a side come into the plane. Of a pair the side that is known better counts more; a fixed joint stays, and the
-// other one is its mirror image. Fewer than half of the vertices have partners: the body does not stand alike on both sides, bones get
-// the same lengths (make_bones_symmetric), and a warning says so.
+// Left and right joints, recognised by their names, become mirror images, as do weights of vertices that are
+// mirror images; joints without a side are moved into the plane. Of a pair the side of higher confidence
+// counts more; a fixed joint is unchanged, and its counterpart becomes its mirror image. If fewer than half
+// of the vertices have counterparts, the body is not symmetric: bones get equal lengths
+// (make_bones_symmetric), with a warning.
 void make_symmetric(const TriangleMesh& mesh, const FixedJoints& fixed, CharacterRig& character);
 
-// The rest pose (character.rest) of a symmetric rig, about the plane between its own sides.
+// Makes the rest pose (character.rest) of a symmetric rig symmetric, about the plane between its own sides.
 void make_rest_symmetric(CharacterRig& character);
 
 }  // namespace focal

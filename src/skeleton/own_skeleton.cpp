@@ -11,14 +11,15 @@ namespace focal {
 namespace {
 
 constexpr int32_t analysed_vertices = 6000;  // enough for fingers; no spectrum is needed
-constexpr double short_of_skin = 0.9;        // share of the way to the skin that a bone without an end takes
-// Chosen on characters of game packs: artists paint harder weights than heat gives.
-constexpr float hardness = 1.5F;  // power of the weights
+// Fraction of the distance to the skin at which a bone without an end stops.
+constexpr double short_of_skin = 0.9;
+// Chosen on characters of game packs: artists paint harder weights than heat diffusion gives.
+constexpr float hardness = 1.5F;  // exponent of the weights
 constexpr double heat_strength = 4;
 
 Vector3 place_of(const Joint& joint) { return joint.bind.topRightCorner<3, 1>(); }
 
-// Joints that move vertices, and those above them up to the root.
+// Joints that move vertices, and their ancestors.
 std::vector<char> leads_to_moving(const OwnSkeleton& skeleton) {
   std::vector<char> result = skeleton.moves;
   for (size_t j = result.size(); j-- > 0;)
@@ -26,7 +27,7 @@ std::vector<char> leads_to_moving(const OwnSkeleton& skeleton) {
   return result;
 }
 
-// Places in the coordinates of the analysed surface, and the bones between them.
+// Positions in the coordinates of the analysed surface, and the bones between them.
 class Bones {
  public:
   Bones(const OwnSkeleton& skeleton, const SurfaceAnalysis& analysis)
@@ -61,8 +62,9 @@ std::vector<std::vector<size_t>> Bones::children() const {
   return result;
 }
 
-// Where the bone of a joint without moving children ends: at its tip, at a child that moves nothing (an end node), or on towards the
-// skin the way the chain came, no farther than the bone before it is long.
+// The end of the bone of a joint without moving children: its tip, a child that moves no vertex (an end
+// node), or the point towards the skin in the direction of the chain, at most as far as the previous bone is
+// long.
 Vector3 Bones::end_of(size_t joint, const std::vector<size_t>& children) const {
   if (skeleton_.tip[joint]) return inward(*skeleton_.tip[joint]);
   if (!children.empty()) return place_[children.front()];

@@ -9,22 +9,24 @@
 
 namespace focal {
 namespace {
-// Lengths in extents of the mesh, areas in its area. Chosen on characters of game packs.
+// Lengths relative to the extent of the mesh, areas relative to its area. Chosen on characters of game packs.
 constexpr double touching = 5e-4;  // vertices that touch
 constexpr double max_rigid_area = 0.4, small_extent = 0.45, tiny_extent = 0.2;
-constexpr float nearly_one = 0.9F;      // share of the main joint in a part of any form that is rigid
+constexpr float nearly_one = 0.9F;      // weight of the main joint in a part of any shape that is rigid
 constexpr float one_bone = 0.75F;       // in a small one that does not bend with a joint
 constexpr float tiny_one_bone = 0.55F;  // in a tiny one
 constexpr float two_bones = 0.85F;      // of the two main joints in a tiny one
-constexpr float bends_with = 0.2F;      // share of a joint that a part bends with when it lies round it
-// How much farther than the nearest side the one that faces alike may be, in mean edges of the analysed surface.
+constexpr float bends_with = 0.2F;      // weight of a joint that a part around it bends with
+// Largest extra distance of a point with a similar normal relative to the nearest point, in mean edges of the
+// analysed surface.
 constexpr double faces_other_way = 1.5;
 
 double extent_of(const MatrixX3& positions) {
   return (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).norm();
 }
 
-// Of the nearest place and the nearest that faces the same way the latter, unless it is on another part of the body.
+// Of the nearest point and the nearest with a similar normal the latter, unless it is on another part of the
+// body.
 std::vector<SurfacePoint> places_of_vertices(const Proxy& proxy, const Execution& execution) {
   const TriangleMesh& full = proxy.full->surface;
   const TriangleMesh& coarse = proxy.coarse->surface;
@@ -61,7 +63,7 @@ RowMatrixf lifted(const RowMatrixf& weights, const SurfaceAnalysis& analysis, co
   return result;
 }
 
-// Vertices at one place take the mean of their weights, so that seams between parts stay closed.
+// Vertices at one position get the mean of their weights, so that seams between parts stay closed.
 void close_seams(RowMatrixf& weights, const MatrixX3& positions) {
   const std::vector<int32_t> first = first_at_place(positions, touching * extent_of(positions));
   std::vector<float> count(first.size(), 1);
@@ -107,7 +109,7 @@ Box box_of(const Part& part, const MatrixX3& positions) {
   return box;
 }
 
-// Whether a part lies round a joint that moves some of it, as a cuff or a neck does, and bends with it.
+// Whether a part is around a joint that moves some of it, like a cuff or a collar, and bends with it.
 bool is_round_a_joint(const Part& part, const Box& box, const std::vector<Vector3>& place) {
   for (size_t j = 0; j < place.size(); ++j)
     if (part.mean[static_cast<Eigen::Index>(j)] > bends_with && (place[j] - box.low).minCoeff() > 0 &&
@@ -116,7 +118,7 @@ bool is_round_a_joint(const Part& part, const Box& box, const std::vector<Vector
   return false;
 }
 
-// The weights that all vertices of a rigid part have; empty: it is none. extent, area: of the mesh.
+// The common weights of all vertices of a rigid part; empty: not rigid. extent, area: of the mesh.
 Eigen::RowVectorXf rigid_weights(const Part& part, const MatrixX3& positions, const PlacedSkeleton& skeleton,
                                  double extent, double area) {
   if (part.area > max_rigid_area * area) return {};

@@ -12,10 +12,10 @@
 namespace focal {
 namespace {
 
-constexpr double min_move = 1e-3;  // of the source's size: less is rounding
+constexpr double min_move = 1e-3;  // relative to the source's size: less is rounding
 constexpr double min_turn = 1e-3;  // radians, of a joint that does not move
 constexpr int64_t max_samples = 64'000'000;
-constexpr int cubic_steps = 8;  // where a cubic segment has to be sampled
+constexpr int cubic_steps = 8;  // samples per cubic segment that must be sampled
 
 struct Frame {
   Matrix3 turn = Matrix3::Identity();
@@ -26,7 +26,7 @@ Frame frame_of(const Matrix4& matrix) {
   return {nearest_rotation(matrix.topLeftCorner<3, 3>()), matrix.topRightCorner<3, 1>()};
 }
 
-// Seen from the parent.
+// Relative to the parent.
 Frame local(const Frame& parent, const Frame& child) {
   return {parent.turn.transpose() * child.turn, parent.turn.transpose() * (child.place - parent.place)};
 }
@@ -37,7 +37,7 @@ double size_of(const std::vector<Joint>& joints) {
   return box.isEmpty() ? 0 : box.diagonal().norm();
 }
 
-// "hips (2)" is called "hips" in its file.
+// "hips (2)" is named "hips" in its file.
 std::string name_in_file(const std::string& name, const std::set<std::string>& all) {
   const size_t at = name.rfind(" (");
   return at != std::string::npos && name.back() == ')' && all.contains(name.substr(0, at))
@@ -45,7 +45,7 @@ std::string name_in_file(const std::string& name, const std::set<std::string>& a
              : name;
 }
 
-// The source's joints by name, those of the skeleton that the clip moves most first.
+// The source's joints by name, those of the skeleton that the clip animates most first.
 struct Named {
   std::vector<std::string> names;
   std::vector<int32_t> joints;
@@ -76,9 +76,10 @@ Named named_joints(const ClipSource& source, const Clip& clip) {
   return result;
 }
 
-// How the source's node n stands to the frame of another node above it (-1: the world): turn * q, and linear * t + offset.
+// Transform of the source's node n relative to another node above it (-1: the world): turn * q, and linear *
+// t + offset.
 struct Path {
-  bool is_exact = false;  // nothing else moves on the way
+  bool is_exact = false;  // no other node is animated on the path
   Matrix3 turn, linear;
   Vector3 offset;
 };
@@ -90,13 +91,13 @@ class Retargeter {
   Retargeted run();
 
  private:
-  // One target joint, and what it takes after.
+  // One target joint, and the source joint that it follows.
   struct Follower {
     size_t joint;
     const Joint* from;
-    const Joint* above;    // of the nearest target joint above that takes after one; null: the world
-    Matrix3 left, right;   // turn of the target = left * (turn of from seen from above) * right
-    Frame at_rest, place;  // of the source seen from above; of the target seen from its parent
+    const Joint* above;    // of the nearest target joint above that follows one; null: the world
+    Matrix3 left, right;   // rotation of the target = left * (rotation of from relative to above) * right
+    Frame at_rest, place;  // of the source relative to above; of the target relative to its parent
   };
   Follower follower(size_t joint) const;
   Matrix3 axes(size_t joint) const;
@@ -118,7 +119,7 @@ class Retargeter {
   std::vector<const Joint*> match_;
   std::vector<char> by_convention_;
   std::map<std::pair<int32_t, NodeProperty>, const Channel*> channels_;
-  std::vector<Matrix4> world_;  // as the file has it
+  std::vector<Matrix4> world_;  // as in the file
   Retargeted result_;
 };
 
@@ -156,7 +157,8 @@ bool Retargeter::is_moved(int32_t node) const {
   return false;
 }
 
-// From the source's axes of a joint to the target's, where a convention alone says that they are one joint.
+// From a joint's axes in the source to those in the target, where only a convention identifies them as one
+// joint.
 Matrix3 Retargeter::axes(size_t joint) const {
   if (!by_convention_[joint] || target_rest_.empty()) return Matrix3::Identity();
   return frame_of(match_[joint]->bind).turn.transpose() * frame_of(target_rest_[joint]).turn;
@@ -167,8 +169,8 @@ Retargeter::Follower Retargeter::follower(size_t joint) const {
   while (above >= 0 && !match_[above]) above = target_[above].parent;
   const Joint* from_above = above < 0 ? nullptr : match_[above];
   const auto bound = [&](int32_t j) { return j < 0 ? Frame{} : frame_of(target_[j].bind); };
-  const Frame parent =
-      local(bound(above), bound(target_[joint].parent));  // target joints between stay as they are
+  // Target joints in between keep their pose.
+  const Frame parent = local(bound(above), bound(target_[joint].parent));
   Follower one{joint, match_[joint], from_above, Matrix3::Identity(), axes(joint), {}, {}};
   one.left =
       parent.turn.transpose() * (above < 0 ? Matrix3(Matrix3::Identity()) : Matrix3(axes(above).transpose()));
@@ -247,7 +249,7 @@ void Retargeter::follow_keys(const Follower& one, const Path& path, JointKeys& o
   if (farthest > still_) out.translation = std::move(keys);
 }
 
-// The keys of all nodes that place the joint.
+// Adds the keys of all nodes that affect the joint.
 void Retargeter::add_times(const Follower& one, std::set<double>& times) const {
   for (const Joint* joint : {one.from, one.above})
     for (int32_t node = joint ? joint->node : -1; node >= 0; node = source_.tree.parent[node])
@@ -270,7 +272,7 @@ void Retargeter::sample(const std::vector<Follower>& sampled) {
   const std::vector<double> times(all.begin(), all.end());
   if (static_cast<int64_t>(times.size()) * static_cast<int64_t>(sampled.size() + world_.size()) > max_samples)
     throw Error(Status::unsupported,
-                "the animation '" + clip_.name + "' has more keys than memory is allowed for",
+                "the animation '" + clip_.name + "' has more keys than the memory limit allows",
                 "bake it in the program it was made with, with fewer keys");
   std::vector<double> farthest(sampled.size(), 0);
   for (size_t i = 0; i < sampled.size(); ++i) {
@@ -289,7 +291,7 @@ void Retargeter::sample(const std::vector<Follower>& sampled) {
           local(one.above ? frame_of(world[one.above->node]) : Frame{}, frame_of(world[one.from->node]));
       Eigen::Quaterniond q(Matrix3(one.left * now.turn * one.right));
       if (t > 0 && q.coeffs().dot(out.rotation.values.row(row - 1).transpose()) < 0)
-        q.coeffs() *= -1;  // the short way round from key to key
+        q.coeffs() *= -1;  // the shorter arc between keys
       out.rotation.values.row(row) = q.coeffs().transpose();
       out.translation.values.row(row) = translation_of(one, now.place).transpose();
       farthest[i] = std::max(farthest[i], (now.place - one.at_rest.place).norm());

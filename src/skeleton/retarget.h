@@ -1,4 +1,4 @@
-// Animations of one character for the skeleton that another one got.
+// Transfers animations of one character to the skeleton of another.
 #pragma once
 #include <vector>
 
@@ -7,26 +7,26 @@
 
 namespace focal {
 
-// A rigged character whose clips are played on another one. Its joints name nodes of the tree; joints of several skeletons may be called
-// alike but for a number, as GltfDocument::rig names them.
+// A rigged character whose clips are transferred. Its joints refer to nodes of the tree by name; joints of
+// several skeletons may have the same name with a number, as GltfDocument::rig creates them.
 struct ClipSource {
   const std::vector<Joint>& joints;  // bound in the character's coordinates
   const NodeTree& tree;
 };
 
 struct Retargeted {
-  std::vector<JointKeys> joints;     // one a target joint
+  std::vector<JointKeys> joints;     // one per target joint
   std::vector<std::string> missing;  // target joints that the source lacks
 };
 
-// target: whose joints have axes like the source's joints of the same names; target_rest: its joints in the rest pose of those it was
-// learned from, for joints that are matched by a convention only and whose axes are others; may be empty. scale: of the target's
-// lengths, the source's being 1.
+// target: its joints have the same axes as the source's joints of the same names. target_rest: its joints in
+// the rest pose of the training characters, for joints that are matched only by a convention and have other
+// axes; may be empty. scale: of the target's lengths relative to the source's.
 //
-// Joints turn in the world as the source's do; what the source moves besides (a hip that rises, a foot that is led) is moved by
-// the same, scaled. Keys stay the source's, times and interpolation included, wherever one node's keys say how the joint stands to the
-// joint above; else the joint is sampled at the keys of all nodes that move it. Of skeletons with the same names the one counts that the
-// clip moves most.
+// Joints get the source's world rotations; translations in the source (a hip that rises, an animated foot)
+// are scaled. Keys, their times and interpolation are kept wherever one node's keys determine the joint's
+// transform relative to the joint above; else the joint is sampled at the keys of all nodes that move it.
+// Among skeletons with the same names the one that the clip animates most is used.
 Retargeted retarget(const ClipSource& source, const Clip& clip, const std::vector<Joint>& target,
                     const std::vector<Matrix4>& target_rest, double scale);
 

@@ -7,7 +7,7 @@
 namespace focal {
 namespace {
 
-constexpr double min_apart = 0.05;  // landmarks, of sqrt(area): nearer ones say the same
+constexpr double min_apart = 0.05;  // in sqrt(area): nearer landmarks are redundant
 constexpr const char* axis_names[] = {"x", "y", "z"};
 
 // One landmark on every shape of the set.
@@ -16,7 +16,7 @@ struct Candidate {
   std::vector<std::optional<SurfacePoint>> marks;
 };
 
-// Points of triangle edges where a joint's part of the surface begins: its weight passes a half.
+// Points on edges where a joint's part of the surface starts: its weight crosses one half.
 std::vector<SurfacePoint> ring_of(const TriangleMesh& surface, const RowMatrixf& below, int32_t joint) {
   std::vector<SurfacePoint> ring;
   for (int32_t t = 0; t < surface.triangle_count(); ++t)
@@ -47,7 +47,8 @@ Vector3 mean_position(const TriangleMesh& surface, const std::vector<SurfacePoin
   return sum / static_cast<double>(points.size());
 }
 
-// The two axes of the world across which the rings lie, the same for all shapes: a rig faces one way.
+// The two axes of the world across which the rings are placed, the same for all shapes: a rig has one
+// heading.
 std::array<int, 2> axes_across(const TrainingSet& set, const std::vector<std::vector<SurfacePoint>>& rings) {
   Vector3 spread = Vector3::Zero();
   for (size_t s = 0; s < rings.size(); ++s) {
@@ -111,7 +112,8 @@ double distance_between(const TrainingSet& set, const Candidate& a, const Candid
   return count > 0 ? sum / count : std::numeric_limits<double>::infinity();
 }
 
-// Joints beyond which no other has a part of the surface on most shapes: markers at the ends of fingers move a vertex or none.
+// Joints without a descendant that has a part of the surface on most shapes: markers at the ends of fingers
+// move one vertex or none.
 std::vector<char> ends_of_limbs(const TrainingSet& set) {
   std::vector<int32_t> parts(set.skeleton.size(), 0);
   for (const MarkedShape& shape : set.shapes)
@@ -163,7 +165,7 @@ void mark_by_skeleton(TrainingSet& set, int32_t most) {
   for (const MarkedShape& shape : set.shapes)
     below.push_back(weights_below(set.skeleton, shape.rig->influences));
   const std::vector<char> is_leaf = ends_of_limbs(set);
-  std::vector<Candidate> candidates;  // tips first, which are found best
+  std::vector<Candidate> candidates;  // tips first, which are detected best
   for (size_t j = 0; j < set.skeleton.size(); ++j)
     if (is_leaf[j]) add_tip(set, static_cast<int32_t>(j), candidates);
   for (size_t j = 0; j < set.skeleton.size(); ++j)

@@ -1,5 +1,5 @@
-// Landmarks that follow from a skeleton and its skin weights: points of the rings where a joint's part of the surface begins,
-// and the tips of the parts where a chain ends.
+// Landmarks derived from a skeleton and its skin weights: points of the rings where a joint's part of the
+// surface starts, and the tips of the parts at the end of a chain.
 #pragma once
 #include <vector>
 
@@ -7,14 +7,16 @@
 
 namespace focal {
 
-// vertices x joints: the weight of each joint and all that hangs on it.
+// vertices x joints: the weight of each joint and its descendants.
 RowMatrixf weights_below(const std::vector<SkeletonJoint>& skeleton,
                          const std::vector<VertexInfluences>& influences);
 
-// Per joint the vertex of its own part that lies farthest from it; the joint's place when it has no part.
+// For each joint the vertex of its own part that is farthest from it; the joint's position when it has no
+// part.
 std::vector<Vector3> joint_tips(const TriangleMesh& surface, const ShapeRig& rig);
 
-// Names the landmarks of a set of shapes in like poses and marks them on each; at most so many, none nearly where another is.
+// Names the landmarks of a set of shapes in similar poses and sets them on each; at most `most`, with a
+// minimum distance between them.
 void mark_by_skeleton(TrainingSet& set, int32_t most);
 
 }  // namespace focal

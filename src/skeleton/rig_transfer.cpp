@@ -22,20 +22,20 @@ namespace focal {
 namespace {
 
 // Chosen on left-out training characters; see docs/accuracy.md.
-constexpr double alike_falloff = 30;    // a shape counts exp(-falloff (residual - least residual))
-constexpr double place_outlier = 0.02;  // of sqrt(area): places farther from the consensus count less
-constexpr double ring_radius = 0.15;    // of sqrt(area): what is farther from the joint hardly counts
-constexpr double ring_softness = 0.05;  // share of a joint's part that counts beside its ring
+constexpr double alike_falloff = 30;    // weight of a shape: exp(-falloff (residual - least residual))
+constexpr double place_outlier = 0.02;  // in sqrt(area): positions farther from the consensus count less
+constexpr double ring_radius = 0.15;    // in sqrt(area): points farther from the joint have a small weight
+constexpr double ring_softness = 0.05;  // weight of a joint's part outside its ring
 
-// A similarity fitted to fewer points than that is turned at random: the points round the joint serve instead.
+// A similarity fitted to fewer points has a random rotation: the points around the joint are used instead.
 constexpr double fewest_points = 5;
 constexpr int few_points = 12;
 
-// What one training shape says of the new character, in the coordinates of the full surface.
+// The rig that one training shape predicts for the new character, in the coordinates of the full surface.
 struct Opinion {
   double weight = 0;
   std::vector<std::optional<Vector3>> place;
-  std::vector<Matrix3> turn;  // of the joint, where there is a place
+  std::vector<Matrix3> turn;  // of the joint, where it has a position
   std::vector<Vector3> tip;
 };
 
@@ -53,7 +53,7 @@ std::vector<ShapeMap> maps_of(const Detection& detection, const Execution& execu
     const std::vector<int32_t> landmark = placed_landmarks(detection);
     if (landmark.size() < 3)
       throw Error(Status::invalid_argument, "fewer than three landmarks were found on the mesh",
-                  "is it of the category that the model was learned on?");
+                  "check that it belongs to the category that the model was trained on");
     const RowMatrixf fields = analysis.metric->distances(places_of(detection, landmark), execution);
     maps = map_shapes(model.exemplars, detection.exemplars, model.reach, analysis, landmark, fields,
                       {.map = {.first = 20, .last = 120, .step = 8}}, execution);
@@ -63,10 +63,10 @@ std::vector<ShapeMap> maps_of(const Detection& detection, const Execution& execu
   return maps;
 }
 
-// How many points share the weight, as if each had the same.
+// Number of points of equal weight that would share the weight in the same way.
 double points_that_count(const Vector& weight) { return std::pow(weight.sum(), 2) / weight.squaredNorm(); }
 
-// Weights of the points round a place.
+// Weights of the points around a position.
 Vector surroundings_of(const Vector3& place, const Exemplar& shape) {
   const Eigen::Index points = shape.positions.rows();
   const Vector away = (shape.positions.rowwise() - place.transpose()).rowwise().norm();
@@ -115,7 +115,8 @@ Opinion opinion_of(const std::vector<SkeletonJoint>& skeleton, const Exemplar& s
   return result;
 }
 
-// A robust mean of places: Cauchy weights round the one found so far. Returns how far the places lie from it in the mean.
+// A robust mean of positions: Cauchy weights around the current one. Returns the mean distance of the
+// positions from it.
 std::pair<Vector3, double> consensus(const std::vector<std::pair<Vector3, double>>& places) {
   constexpr int rounds = 10;
   Vector3 middle = Vector3::Zero();
@@ -135,8 +136,8 @@ std::pair<Vector3, double> consensus(const std::vector<std::pair<Vector3, double
   return {middle, spread};
 }
 
-// Where the shapes agree that the joints lie. Their axes are those of the training characters, turned as their parts of the surface
-// are, so that rotations of an animation mean the same here.
+// The consensus of the shapes on the joints. Their axes are those of the training characters, rotated with
+// their parts of the surface, so that rotations of an animation have the same meaning.
 struct Joints {
   std::vector<Vector3> place, tip;
   std::vector<Matrix3> turn;
@@ -155,13 +156,13 @@ Joints agreed_joints(const std::vector<SkeletonJoint>& skeleton, const std::vect
       turn += one.weight * one.turn[j];
     }
     const int32_t p = skeleton[j].parent;
-    if (places.empty()) {  // held by its parent
+    if (places.empty()) {  // placed by its parent
       result.place.push_back(p >= 0 ? result.place[p] : Vector3::Zero());
       result.tip.push_back(result.place.back()),
           result.turn.push_back(p >= 0 ? result.turn[p] : Matrix3::Identity());
       result.confidence.push_back(0);
       warnings.push_back("joint '" + skeleton[j].name +
-                         "' has no part of the surface to follow; it lies at its parent");
+                         "' has no part of the surface to follow; it is placed at its parent");
       continue;
     }
     const auto [place, spread] = consensus(places);
@@ -178,7 +179,7 @@ std::vector<int32_t> parents_of(const std::vector<SkeletonJoint>& skeleton) {
   return result;
 }
 
-// How far the shapes' opinions of a turn lie apart about an axis, as the variance of their mean.
+// Disagreement of the shapes on a rotation about an axis, as the variance of their mean.
 double variance_about(const Vector3& axis, const Matrix3& mean, const std::vector<Opinion>& opinions,
                       size_t joint) {
   double squares = 0, total = 0, total_squares = 0;
@@ -190,7 +191,7 @@ double variance_about(const Vector3& axis, const Matrix3& mean, const std::vecto
   return total > 0 ? squares / total * (total_squares / (total * total)) : 1;
 }
 
-// Of the first character that taught the model; there is one, or there were no maps.
+// The rig of the first training character; it exists, or there would be no maps.
 const ShapeRig& first_rig(const LandmarkModel& model) {
   return *std::find_if(model.exemplars.begin(), model.exemplars.end(), [](const Exemplar& shape) {
             return shape.rig.has_value();
@@ -214,7 +215,7 @@ void settle_twists(const LandmarkModel& model, const std::vector<Opinion>& opini
       joints.turn[j] = Eigen::AngleAxisd(by[j], way[j]).toRotationMatrix() * joints.turn[j];
 }
 
-// From the caller's coordinates to those of the full surface.
+// Converts the caller's coordinates to those of the full surface.
 FixedJoints on_full(const FixedJoints& fixed, const PreparedMesh& mesh) {
   FixedJoints result(fixed.size());
   for (size_t j = 0; j < fixed.size(); ++j)
@@ -222,7 +223,7 @@ FixedJoints on_full(const FixedJoints& fixed, const PreparedMesh& mesh) {
   return result;
 }
 
-// Fixed joints, in the caller's coordinates, and those that follow them.
+// Sets fixed joints, in the caller's coordinates, and moves those that follow them.
 void hold_fixed(const std::vector<SkeletonJoint>& skeleton, const FixedJoints& fixed,
                 const PreparedMesh& mesh, Joints& joints) {
   for (size_t j = 0; j < fixed.size(); ++j)
@@ -231,7 +232,7 @@ void hold_fixed(const std::vector<SkeletonJoint>& skeleton, const FixedJoints& f
          {parents_of(skeleton), joints.place, joints.tip, joints.turn});
 }
 
-// A joint that moves vertices belongs inside the body; controls may lie anywhere.
+// A joint that moves vertices belongs inside the body; controls may be anywhere.
 void draw_inside(Joints& joints, const FixedJoints& fixed, const RowMatrixf& weights, TriangleMesh surface) {
   const RayCaster rays(std::move(surface));
   for (size_t j = 0; j < joints.place.size(); ++j)
@@ -251,7 +252,7 @@ std::vector<Matrix4> rest_pose(const LandmarkModel& model, const std::vector<Joi
   return rest;
 }
 
-// A joint whose own landmarks are all absent lies where the rest of the body suggests it. One sentence for all of them.
+// A joint whose own landmarks are all absent is placed by the rest of the body. One sentence for all of them.
 void warn_of_absent(const Detection& detection, std::vector<std::string>& warnings) {
   constexpr size_t most_named = 3;
   const std::vector<std::string> joints = guessed_joints(detection);
@@ -267,7 +268,7 @@ void warn_of_absent(const Detection& detection, std::vector<std::string>& warnin
                 "): none of their landmarks was found on this mesh, each of their places is a guess");
 }
 
-// Between the coordinates of the analysed surface and those of the full one.
+// Converts between the coordinates of the analysed surface and those of the full one.
 struct ToFull {
   explicit ToFull(const Proxy& proxy) {
     if (!proxy.is_full()) scale = proxy.coarse->scale, offset = proxy.coarse->centre;
@@ -300,12 +301,12 @@ std::vector<Opinion> opinions_of(const std::vector<ShapeMap>& maps, const Landma
   return opinions;
 }
 
-// Landmarks that are known say how the body faces.
+// Known landmarks determine the heading.
 bool may_reverse(const Detection& detection) {
   return detection.model->params.finds_heading && !detection.has_fixed;
 }
 
-// What the fits say beside the maps, which count as much as the fits leave them.
+// Adds the fits to the maps, whose weight depends on the fits.
 void add_fits(const BodyFit& fit, const LandmarkModel& model, const ToFull& to_full,
               std::vector<Opinion>& opinions) {
   double sum = 0;
@@ -342,7 +343,7 @@ CharacterRig transfer_rig(const Detection& detection, const Execution& execution
       (to_full.scale * analysis.surface().positions).rowwise() + to_full.offset.transpose();
   std::vector<Opinion> opinions = opinions_of(maps, model, vertices, execution);
   CharacterRig result;
-  std::vector<std::string> of_maps;  // warnings that the fits may answer
+  std::vector<std::string> of_maps;  // warnings that the fits may resolve
   const Joints mapped = agreed_joints(model.skeleton, opinions, of_maps);
   FixedJoints known = on_full(fixed, *detection.mesh);
   for (auto& one : known)
@@ -353,9 +354,8 @@ CharacterRig transfer_rig(const Detection& detection, const Execution& execution
   result.surface_distance = fit.shapes[0].residual, result.heading_margin = fit.heading_margin;
   if (fit.is_reversed)
     result.warnings.push_back(
-        "the skeleton faces the other way than the landmarks that were found: a training character lies "
-        "nearer to the "
-        "mesh so");
+        "the skeleton faces the other way than the detected landmarks: a training character fits the mesh "
+        "better that way");
   Joints joints = agreed_joints(model.skeleton, opinions, result.warnings);
   settle_twists(model, opinions, joints);
   hold_fixed(model.skeleton, fixed, *detection.mesh, joints);
@@ -380,7 +380,7 @@ CharacterRig transfer_rig(const Detection& detection, const Execution& execution
   put_influences_by_parts(weights, placed, analysis, influences, result.rig, execution);
   refine_details(detection, influences, result, execution);
   if (symmetric) make_symmetric(full.source, fixed, result);
-  follow(fixed, fixed_joint_reach * full.scale, result);  // what details and symmetry have moved
+  follow(fixed, fixed_joint_reach * full.scale, result);  // changed by details and symmetry
   result.rest = rest_pose(model, result.rig.joints);
   if (symmetric) make_rest_symmetric(result);
   return result;

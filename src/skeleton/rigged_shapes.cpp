@@ -14,7 +14,7 @@
 namespace focal {
 namespace {
 
-// Rotations of joints, radians, and scales: a spread that makes limbs bend clearly and bodies differ as people do.
+// Rotations of joints in radians, and scales: limbs bend clearly, and bodies vary like those of people.
 constexpr double pose_deviation = 0.35, most_turned = 0.9, size_deviation = 0.1, breadth_deviation = 0.08;
 
 int32_t index_of(const std::vector<SkeletonJoint>& skeleton, const std::string& name) {
@@ -58,7 +58,8 @@ std::vector<SkeletonJoint> shared_skeleton(const std::vector<RiggedMesh>& charac
   return skeleton;
 }
 
-// The character's own joints -> those of the shared skeleton, each to itself or to its nearest ancestor there; -1: none.
+// Maps the character's own joints to those of the shared skeleton: each to itself or to its nearest ancestor
+// there; -1: none.
 std::vector<int32_t> shared_joints(const Rig& rig, const std::vector<SkeletonJoint>& skeleton) {
   std::vector<int32_t> result;
   for (const Joint& joint : rig.joints) {
@@ -115,7 +116,8 @@ RiggedMesh wrapped(const RiggedMesh& character, const Execution& execution) {
   return result;
 }
 
-// What a joint does to the vertices it moves: turned and scaled about its place, its children carried along.
+// Random motion of a joint for the vertices that it moves: rotation and scale about its position; its
+// children move along.
 std::vector<Matrix4> random_motion(const std::vector<SkeletonJoint>& skeleton, const ShapeRig& rig,
                                    Random& random) {
   std::vector<Matrix4> motion(skeleton.size(), Matrix4::Identity());
@@ -141,7 +143,7 @@ std::vector<Matrix4> random_motion(const std::vector<SkeletonJoint>& skeleton, c
   return motion;
 }
 
-// The shape in another pose and with other proportions; its marks on the same triangles.
+// The shape in another pose and with other proportions; its landmarks on the same triangles.
 MarkedShape posed(const MarkedShape& shape, const std::vector<SkeletonJoint>& skeleton, Random random) {
   const ShapeRig& rig = *shape.rig;
   std::vector<Matrix4> motion = random_motion(skeleton, rig, random);
@@ -198,7 +200,7 @@ TrainingSet training_set_of(const std::vector<RiggedMesh>& given, const RiggedSh
     set.shapes.push_back({character.mesh, {}, shape_rig(character, set.skeleton)});
   mark_by_skeleton(set, params.landmarks);
   const auto originals = static_cast<int32_t>(set.shapes.size());
-  // Half as many copies again, where few characters are there: each that the model remembers takes 0.4 MB of it.
+  // Half as many copies again while there are few characters: each copy adds 0.4 MB to the model.
   constexpr int32_t enough = 60;
   const int32_t wanted = std::max({params.shapes, originals, std::min(originals + originals / 2, enough)});
   for (int32_t copy = 0; static_cast<int32_t>(set.shapes.size()) < wanted; ++copy) {

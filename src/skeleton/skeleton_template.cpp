@@ -17,7 +17,7 @@ namespace {
   throw Error(Status::invalid_argument, "joint '" + joint.name + "' of the template " + what, hint);
 }
 
-// A template joint with its names looked up.
+// A template joint with its names resolved.
 struct Rule {
   struct End {
     int32_t joint = -1, landmark = -1;  // one of them
@@ -33,13 +33,12 @@ int32_t index_in(const std::vector<std::string>& names, const std::string& name)
   return at == names.end() ? -1 : static_cast<int32_t>(at - names.begin());
 }
 
-// "between" leads to other joints only, and these must not lead back.
+// "between" may refer to other joints, but not in a cycle.
 void check_circles(const SkeletonTemplate& skeleton, const std::vector<Rule>& rules) {
-  std::vector<int> state(rules.size(), 0);  // 1: being followed, 2: fine
+  std::vector<int> state(rules.size(), 0);  // 1: being visited, 2: done
   const auto follow = [&](const auto& self, int32_t j) -> void {
     if (state[j] == 1)
-      fail(skeleton.joints[j], "lies between joints that lie between it and others",
-           "let one of them follow from landmarks");
+      fail(skeleton.joints[j], "depends on itself through other joints", "place one of them by landmarks");
     if (state[j] == 2) return;
     state[j] = 1;
     for (const Rule::End& end : rules[j].between)
@@ -58,18 +57,19 @@ std::vector<Rule> rules_of(const SkeletonTemplate& skeleton, const std::vector<s
     const auto own = static_cast<int32_t>(rules.size());
     Rule rule;
     if (joint.name.empty()) fail(joint, "has no name", "give every joint a name");
-    if (index_in(names, joint.name) != own) fail(joint, "is there twice", "give every joint its own name");
+    if (index_in(names, joint.name) != own) fail(joint, "occurs twice", "give every joint its own name");
     if (!joint.parent.empty()) {
       rule.parent = index_in(names, joint.parent);
       if (rule.parent < 0 || rule.parent >= own)
-        fail(joint, "hangs on '" + joint.parent + "', which does not come before it", "list parents first");
+        fail(joint, "has the parent '" + joint.parent + "', which does not come before it",
+             "list parents first");
     }
     if (!joint.centre.empty() + !joint.surface.empty() + !joint.between.empty() != 1)
-      fail(joint, "has none or several of the ways to lie", R"(give it "centre", "surface" or "between")");
+      fail(joint, "needs exactly one position", R"(give it one of "centre", "surface" and "between")");
     const auto look_up = [&](const std::string& name, const std::vector<std::string>& list,
                              const char* kind) {
       const int32_t index = index_in(list, name);
-      if (index < 0) fail(joint, "names '" + name + "', which is no " + kind, "mind the spelling");
+      if (index < 0) fail(joint, "refers to '" + name + "', which is not a " + kind, "check the spelling");
       return index;
     };
     for (const auto& name : joint.centre)
@@ -82,14 +82,15 @@ std::vector<Rule> rules_of(const SkeletonTemplate& skeleton, const std::vector<s
     }
     if (!joint.tip.empty()) rule.tip = look_up(joint.tip, landmarks, "landmark of the model");
     if (!joint.between.empty() && (joint.between.size() != 2 || !(joint.share >= 0 && joint.share <= 1)))
-      fail(joint, "lies between other than two places, or beyond them", "name two, and a share of 0 to 1");
+      fail(joint, "needs exactly two places for \"between\", and a share from 0 to 1",
+           "give two places and a share of 0 to 1");
     rules.push_back(std::move(rule));
   }
   check_circles(skeleton, rules);
   return rules;
 }
 
-// All in the coordinates of the analysed surface.
+// Everything is in the coordinates of the analysed surface.
 class Placer {
  public:
   Placer(const SkeletonTemplate& skeleton, const Detection& detection)
@@ -160,7 +161,7 @@ std::optional<Placer::Place> Placer::place_of_end(const Rule::End& end) const {
   return Place{*position, detection_.landmarks[end.landmark].confidence};
 }
 
-// Whether another joint has its place now.
+// Whether another joint could be placed.
 bool Placer::place_between() {
   bool any = false;
   for (size_t j = 0; j < rules_.size(); ++j) {
@@ -184,9 +185,9 @@ void Placer::hold(size_t joint, CharacterRig& character) {
                  : std::find_if(places_.begin(), places_.end(), [](const auto& p) { return p.has_value(); });
   if (other == places_.end())
     throw Error(Status::invalid_argument, "no landmark that the template names was found on the mesh",
-                "is it of the category that the model was learned on?");
+                "check that it belongs to the category that the model was trained on");
   character.warnings.push_back("joint '" + skeleton_.joints[joint].name +
-                               "': none of its landmarks was found on this mesh, it lies at '" +
+                               "': none of its landmarks was found on this mesh, it is placed at '" +
                                skeleton_.joints[static_cast<size_t>(other - places_.begin())].name + "'");
   places_[joint] = Place{(*other)->position, 0};
 }
@@ -201,7 +202,7 @@ void Placer::place(CharacterRig& character) {
       while (place_between()) continue;
     }
   };
-  hold_where(false), hold_where(true);  // those between others last: holding these may place them
+  hold_where(false), hold_where(true);  // joints between others last: fixed joints may place them
   for (size_t j = 0; j < rules_.size(); ++j) {
     Joint joint{skeleton_.joints[j].name, rules_[j].parent};
     joint.bind.topRightCorner<3, 1>() = places_[j]->position;
@@ -212,7 +213,8 @@ void Placer::place(CharacterRig& character) {
 
 Vector3 place_of(const Joint& joint) { return joint.bind.topRightCorner<3, 1>(); }
 
-// A joint's bones lead to its children; the last of a chain to its tip, or on to the skin the way the chain came.
+// A joint's bones lead to its children; the last of a chain to its tip, or towards the skin in the direction
+// of the chain.
 std::vector<Bone> Placer::bones(const std::vector<Joint>& joints) const {
   std::vector<Bone> result;
   std::vector<bool> has_child(joints.size(), false);
@@ -237,10 +239,11 @@ std::vector<Bone> Placer::bones(const std::vector<Joint>& joints) const {
   return result;
 }
 
-// The y axis along the bone to the first child, or to the tip; round it as little turned as can be, seen from the parent.
+// The y axis along the bone to the first child, or to the tip, with the smallest rotation about it relative
+// to the parent.
 void turn_along_bones(std::vector<Joint>& joints, const std::vector<Vector3>& tips) {
   std::vector<Vector3> end = tips;
-  for (size_t j = joints.size(); j-- > 0;)  // backwards: the first child has the last word
+  for (size_t j = joints.size(); j-- > 0;)  // backwards: the first child overrides the others
     if (joints[j].parent >= 0) end[joints[j].parent] = place_of(joints[j]);
   for (size_t j = 0; j < joints.size(); ++j) {
     Matrix3 turn = Matrix3::Identity();
@@ -252,7 +255,7 @@ void turn_along_bones(std::vector<Joint>& joints, const std::vector<Vector3>& ti
   }
 }
 
-// Before there are tips: what would end there follows from the joints.
+// Before the tips are set: tips follow from the joints.
 void hold_fixed(const FixedJoints& fixed, const ToCaller& to_caller, CharacterRig& character) {
   FixedJoints inside(fixed.size());
   for (size_t j = 0; j < fixed.size(); ++j)
@@ -318,7 +321,7 @@ CharacterRig rig_by_template(const SkeletonTemplate& skeleton, const Detection& 
   for (Joint& joint : joints) joint.bind.topRightCorner<3, 1>() = to_caller(place_of(joint));
   for (Vector3& tip : result.tip) tip = to_caller(tip);
   for (size_t j = 0; j < fixed.size(); ++j)
-    if (fixed[j]) joints[j].bind.topRightCorner<3, 1>() = *fixed[j];  // to the bit
+    if (fixed[j]) joints[j].bind.topRightCorner<3, 1>() = *fixed[j];  // exactly
   if (skeleton.symmetric) make_symmetric(detection.mesh->source, fixed, result);
   result.rest = rest_of(skeleton, joints);
   return result;

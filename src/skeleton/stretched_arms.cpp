@@ -15,7 +15,7 @@ class Arms {
   Arms(const std::vector<Joint>& joints, std::vector<Matrix4>& pose)
       : joints_(joints), roles_(bone_roles(joints)), pose_(pose) {}
 
-  // Both upper arms are there.
+  // Whether both upper arms exist.
   bool found() const { return joint_of("leftUpperArm") >= 0 && joint_of("rightUpperArm") >= 0; }
 
   void stretch(double below) {
@@ -41,7 +41,7 @@ class Arms {
       if (chain[i] >= 0 && chain[i + 1] >= 0) point(chain[i], chain[i + 1], way);
   }
 
-  // Turns a joint, and all below it, so that another one lies that way from it.
+  // Rotates a joint and its descendants so that another joint is in this direction from it.
   void point(int32_t joint, int32_t end, const Vector3& way) {
     const Vector3 bone = place(end) - place(joint), centre = place(joint);
     if (bone.isZero()) return;

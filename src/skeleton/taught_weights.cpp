@@ -11,14 +11,14 @@
 namespace focal {
 namespace {
 // Chosen on left-out characters of game packs.
-constexpr double space_share =
-    400;  // of a length in space beside lengths in the embedding, both of sqrt(area)
+// Weight of a length in space relative to lengths in the embedding, both in sqrt(area).
+constexpr double space_share = 400;
 constexpr double rigid_teachers = 0.92;  // hardness from which weights are not smoothed
 constexpr float max_exponent = 2, max_exponent_rigid = 8;
 constexpr int between = PlacesBetween::vertices;
-constexpr double min_length = 1e-4;  // of a bone that has a direction
+constexpr double min_length = 1e-4;  // shorter bones have no direction
 
-// Where a joint's bones lead in the mean; the joint itself where they lead nowhere.
+// Mean end of a joint's bones; the joint itself without bones.
 Vector3 end_of(const std::vector<SkeletonJoint>& joints, const std::vector<Vector3>& place,
                const std::vector<Vector3>& tip, size_t joint, int32_t& count) {
   Vector3 sum = Vector3::Zero();
@@ -45,7 +45,7 @@ OldJoints joints_of(const std::vector<SkeletonJoint>& joints, const ShapeRig& ri
   return result;
 }
 
-// What carries a training shape's joints to those found, its bones turned and scaled to theirs.
+// Transforms a training shape's joints to the detected ones, with its bones rotated and scaled to theirs.
 std::vector<Matrix4> transforms_onto(const PlacedSkeleton& skeleton, const ShapeRig& rig) {
   const auto& joints = skeleton.joints;
   const OldJoints old = joints_of(joints, rig);
@@ -69,7 +69,7 @@ std::vector<Matrix4> transforms_onto(const PlacedSkeleton& skeleton, const Shape
   return result;
 }
 
-// Eigenfunctions, then places in space.
+// Eigenfunctions, followed by positions in space.
 RowMatrixf with_places(const RowMatrixf& spectral, const MatrixX3& places) {
   RowMatrixf result(spectral.rows(), spectral.cols() + 3);
   result.leftCols(spectral.cols()) = spectral;
@@ -115,7 +115,7 @@ double hardness_of(const RowMatrixf& weights, const Vector& mass, float exponent
   return sum / mass.sum();
 }
 
-// The power of the weights that makes them as hard as the training shapes' are.
+// The exponent of the weights that makes them as hard as the training shapes' are.
 float exponent_for(const RowMatrixf& weights, const Vector& mass, double hardness) {
   float low = 1, high = hardness < rigid_teachers ? max_exponent : max_exponent_rigid;
   for (int round = 0; round < 8; ++round) {
@@ -125,7 +125,7 @@ float exponent_for(const RowMatrixf& weights, const Vector& mass, double hardnes
   return low;
 }
 
-// Neighbours share their weights, so that no single vertex is torn out of its surroundings.
+// Averages weights of neighbours, so that no single vertex separates from its neighbourhood.
 void smooth(RowMatrixf& weights, const SparseMatrix& L) {
   RowMatrixf next = weights;
   for (Eigen::Index v = 0; v < weights.rows(); ++v) {

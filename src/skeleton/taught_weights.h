@@ -1,4 +1,4 @@
-// Skin weights on the analysed surface, from those of rigged training shapes that are posed onto the joints found.
+// Skin weights on the analysed surface, from those of rigged training shapes posed to the detected joints.
 #pragma once
 #include <vector>
 
@@ -14,7 +14,7 @@ struct PlacedSkeleton {
   std::vector<Matrix3> turn;
 };
 
-// The training shapes in use: a map of each, and how much its word counts.
+// The training shapes in use: a map and a weight for each.
 struct Teachers {
   const LandmarkModel& model;
   const std::vector<ShapeMap>& maps;
@@ -23,20 +23,21 @@ struct Teachers {
 
 struct SurfaceWeights {
   RowMatrixf weights;  // vertices of the analysed surface x joints, each row of sum 1
-  // What sharpens them to what the training shapes have, which means of several blur: weights become their powers.
+  // Exponent that restores the sharpness of the training shapes' weights, which averaging reduces.
   float exponent = 1;
 };
 
-// Each vertex takes the mean over the shapes of the weights at the points that lie nearest, both along the map and in space
-// once the shape's joints are moved to those found. Then a vertex loses what comes from joints far from it: along the
-// surface, in space, or that no training shape has together with its main joint.
+// Each vertex gets the mean over the shapes of the weights at the points nearest to it, both in the map's
+// embedding and in space after the shape's joints are moved to the detected ones. Then weights of distant
+// joints are removed: distant along the surface, in space, or never combined with the main joint on a
+// training shape.
 SurfaceWeights taught_weights(const Teachers& teachers, const SurfaceAnalysis& analysis,
                               const PlacedSkeleton& skeleton, const Execution& execution);
 
-// How far places lie from each joint's bones, which lead to its children or else to its tip.
+// Distance of positions from each joint's bones, which lead to its children or else to its tip.
 RowMatrixf bone_distances(const PlacedSkeleton& skeleton, const MatrixX3& places);
 
-// Weights as powers of themselves, scaled to sum 1; hard enough ones go to one joint altogether.
+// Raises weights to a power, scaled to sum 1; sufficiently hard ones go to one joint entirely.
 void sharpen(Eigen::Ref<Eigen::RowVectorXf> weights, float exponent);
 
 }  // namespace focal

@@ -13,10 +13,11 @@
 namespace focal {
 namespace {
 
-constexpr double one_place = 1e-4;    // of the mesh's largest extent: joints that lie no farther apart
-constexpr double min_weighted = 0.5;  // share of the vertices that a joint should move
-constexpr size_t most_named = 4;      // joints, or groups of characters, that one sentence names
-constexpr size_t max_numbered = 12;   // characters that it names
+// Relative to the mesh's largest extent: joints not farther apart coincide.
+constexpr double one_place = 1e-4;
+constexpr double min_weighted = 0.5;  // share of the vertices that joints should move
+constexpr size_t most_named = 4;      // maximum number of joints, or groups of characters, in one sentence
+constexpr size_t max_numbered = 12;   // maximum number of characters in one sentence
 
 using Names = std::vector<std::string>;
 
@@ -40,7 +41,7 @@ std::string called(const std::vector<RiggedMesh>& characters, const std::vector<
   return text + (said < which.size() ? " and " + std::to_string(which.size() - said) + " more" : "");
 }
 
-// Of the joints that move something: others are controls, which need no match.
+// Only joints that move something: others are controls, which need no match.
 std::vector<Names> moving_joints(const std::vector<RiggedMesh>& characters) {
   std::vector<Names> result;
   for (const RiggedMesh& character : characters) {
@@ -66,7 +67,7 @@ int64_t matches(const std::vector<Names>& characters) {
   return result;
 }
 
-// The spelling that lets most joints match; of equal ones that which changes less.
+// The spelling with most matching joints; of equal ones the one that changes less.
 Spelling best_spelling(const std::vector<Names>& moving) {
   Spelling best = Spelling::as_written;
   int64_t most = matches(moving);
@@ -79,7 +80,7 @@ Spelling best_spelling(const std::vector<Names>& moving) {
   return best;
 }
 
-// Gives the joints the name that the first character with the joint writes.
+// Renames the joints as in the first character that has the joint.
 void rename(std::vector<RiggedMesh>& characters, Spelling spelling, Names& warnings) {
   std::map<std::string, std::string> first;              // spelling -> name
   std::map<std::string, std::vector<size_t>> put_aside;  // prefix -> characters
@@ -99,7 +100,7 @@ void rename(std::vector<RiggedMesh>& characters, Spelling spelling, Names& warni
     warnings.push_back(called(characters, which) +
                        (prefix.empty() ? ": joints are matched with those that have a prefix elsewhere"
                                        : ": the prefix '" + prefix +
-                                             "' of the joints' names is put aside, so that they match"));
+                                             "' of the joints' names is ignored, so that they match"));
 }
 
 // What one character has in common with the others.
@@ -124,7 +125,7 @@ std::vector<Shared> shared_joints(const std::vector<Names>& moving) {
   return result;
 }
 
-// One clause for all characters that share the same joints and have as many.
+// One clause for all characters that share the same joints and have equally many.
 Names clauses(const std::vector<RiggedMesh>& characters, const std::vector<Shared>& shared, double below) {
   std::map<std::tuple<double, Names, size_t>, std::vector<size_t>> groups;
   for (size_t c = 0; c < shared.size(); ++c)
@@ -138,7 +139,7 @@ Names clauses(const std::vector<RiggedMesh>& characters, const std::vector<Share
     result.push_back(called(characters, which) + verb + found + " of " +
                      std::to_string(one.joints.size() + one.others.size()) + " joints with the others" +
                      (one.joints.empty() ? "" : ": " + listed(one.joints)) +
-                     (one.others.empty() ? "" : "; other joints are called " + listed(one.others)));
+                     (one.others.empty() ? "" : "; other joints are named " + listed(one.others)));
   }
   return result;
 }
@@ -171,7 +172,7 @@ void check_shared(const std::vector<RiggedMesh>& characters, const std::vector<N
                        listed(left_out));
 }
 
-// Joints that are all in one place give no landmarks, vertices without weights no parts.
+// Joints at one position define no landmarks, vertices without weights no parts.
 void check_skin(const std::vector<RiggedMesh>& characters, size_t index, Names& warnings) {
   const RiggedMesh& character = characters[index];
   const auto say = [&](const std::string& what) { warnings.push_back(called(characters, {index}) + what); };
@@ -190,7 +191,7 @@ void check_skin(const std::vector<RiggedMesh>& characters, size_t index, Names& 
   const double size = (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).maxCoeff();
   if (joints > 1 && (high - low).maxCoeff() < one_place * size)
     say(": all of its " + std::to_string(joints) +
-        " joints lie in one place; was its skeleton exported in its bind pose?");
+        " joints are at one position; check that its skeleton was exported in its bind pose");
   int64_t bare = 0;
   const auto& used = character.mesh->source_vertex;
   for (const int32_t v : used) bare += !(character.rig.influences[v][0].weight > 0);

@@ -1,4 +1,5 @@
-// Rigged characters, looked at before they teach: whether their joints are called alike, and whether their skins teach anything.
+// Checks rigged characters before training: whether their joints have matching names, and whether their skins
+// are usable.
 #pragma once
 #include <string>
 #include <vector>
@@ -7,13 +8,13 @@
 
 namespace focal {
 
-// Joints are matched by name: as it stands; where more of them match so, without the prefix that the file gives to all of its joints
-// ("mixamorig:", "Bip001 "). Then `characters` get the names of the first that has the joint. Returns sentences on what is odd about
-// the characters, which they number from 1. Throws invalid_argument when the median character shares fewer than half of its joints
-// with the others.
+// Joints are matched by name: unchanged or, if that gives more matches, without the prefix that a file has on
+// all of its joints ("mixamorig:", "Bip001 "). Then `characters` get the names of the first that has the
+// joint. Returns warnings, which number the characters from 1. Throws invalid_argument when the median
+// character shares fewer than half of its joints with the others.
 std::vector<std::string> match_teachers(std::vector<RiggedMesh>& characters);
 
-// How much each joint of a character moves, over all vertices, its descendants' share included.
+// How much each joint of a character moves, summed over all vertices, descendants included.
 std::vector<double> weight_below(const Rig& rig);
 
 }  // namespace focal

@@ -8,9 +8,9 @@
 namespace focal {
 namespace {
 
-constexpr double usual_twist =
-    0.1;  // radians, of a bone against its parent's; chosen on left-out training characters
-constexpr double min_error = 0.05;  // radians, of any measured turn
+// Radians, of a bone relative to its parent's; chosen on left-out training characters.
+constexpr double usual_twist = 0.1;
+constexpr double min_error = 0.05;  // radians, of any measured rotation
 
 }  // namespace
 
@@ -20,8 +20,9 @@ double twist_about(const Matrix3& rotation, const Vector3& axis) {
   return std::remainder(angle, 2 * std::numbers::pi);
 }
 
-// Least squares in the corrections c: c_j^2 / variance_j for all joints, and for each pair (twist_j + c_j - s c_p)^2 /
-// usual_twist^2, s the share of the parent's correction that turns about the bone of j too.
+// Least squares in the corrections c: c_j^2 / variance_j for all joints, and for each pair (twist_j + c_j - s
+// c_p)^2 / usual_twist^2, where s is the share of the parent's correction that also rotates about the bone of
+// j.
 std::vector<double> twist_corrections(const std::vector<TwistedJoint>& joints) {
   const auto n = static_cast<Eigen::Index>(joints.size());
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n, n);

@@ -9,9 +9,10 @@
 namespace focal {
 namespace {
 
-// Fitted on 167 rigs of real characters, animals and the generator's characters (docs/accuracy.md): 62 sound, 70 of another category than
-// the model's, the rest turned or tangled. What separates them together, as a logistic regression: the badness of each measure rises from
-// 0 at `fine` to 1 at `bad` and takes `weight` from the logarithm of the odds. From `doubted` on a sentence says so.
+// Fitted on 167 rigs of real characters, animals and the generator's characters (docs/accuracy.md): 62 sound,
+// 70 of another category than the model's, the rest reversed or tangled. A logistic regression of the
+// measures together: the badness of each rises from 0 at `fine` to 1 at `bad` and subtracts `weight` from the
+// log odds. From `doubted` on a warning reports it.
 struct Indication {
   double RigMeasures::*measure;
   double fine, bad, weight, doubted;
@@ -29,9 +30,10 @@ constexpr Indication indications[] = {
      "a training character that takes this pose does not cover the mesh"},
     {&RigMeasures::category_fit, 0.4, 0, 1.5, 0.7, "the mesh is unlike the characters that taught the model"},
     {&RigMeasures::heading_margin, 0.06, 0, 0.3, 0.7,
-     "a training character that faces the other way lies nearly as near to the surface"}};
+     "a training character that faces the other way fits the surface nearly as well"}};
 
-// What is wrong whatever the rest: factors, 1 up to `fine`, from there linear to `least` at `bad` and beyond.
+// Defects that count regardless of the rest: factors, 1 up to `fine`, then linear to `least` at `bad` and
+// beyond.
 struct Criterion {
   double RigMeasures::*measure;
   double fine, bad, least;
@@ -40,23 +42,24 @@ struct Criterion {
 constexpr Criterion criteria[] = {
     {&RigMeasures::map_residual, 0.66, 0.8, 0.6, "no training character fits the surface well"},
     {&RigMeasures::cost_margin, 2, 0, 0.8,
-     "another way to lie in the mesh, turned or mirrored, suits nearly as well"},
-    {&RigMeasures::joint_spread, 0.4, 0.9, 0.8, "the training characters disagree on where the joints lie"},
-    {&RigMeasures::absent_share, 0.15, 0.7, 0.3, "many joints lie in parts of the body that were not found"},
-    {&RigMeasures::outside_share, 0, 0.15, 0.15, "joints lie far outside the body"},
+     "another pose in the mesh, turned or mirrored, fits nearly as well"},
+    {&RigMeasures::joint_spread, 0.4, 0.9, 0.8, "the training characters disagree on where the joints are"},
+    {&RigMeasures::absent_share, 0.15, 0.7, 0.3, "many joints are in parts of the body that were not found"},
+    {&RigMeasures::outside_share, 0, 0.15, 0.15, "joints are far outside the body"},
     {&RigMeasures::long_share, 0, 0.08, 0.15, "bones are longer than most of the body"},
     {&RigMeasures::collapsed_share, 0, 0.2, 0.2, "bones have no length"},
-    {&RigMeasures::merged_share, 0, 0.25, 0.2, "joints of the left and the right side lie in one place"},
-    {&RigMeasures::crossed_share, 0.05, 0.3, 0.2, "bones of one side lead over to the other"}};
-// By cross-validation over the characters: of the 57 rigs above the first 55 are sound, of the 99 below the second 3.
+    {&RigMeasures::merged_share, 0, 0.25, 0.2, "joints of the left and the right side coincide"},
+    {&RigMeasures::crossed_share, 0.05, 0.3, 0.2, "bones of one side cross over to the other"}};
+// By cross-validation over the characters: of the 57 rigs above the first 55 are sound, of the 99 below the
+// second 3.
 constexpr double good_quality = 0.6, failed_quality = 0.3;
 constexpr double doubted_factor = 0.85;
 
-// Lengths, of the longest side of the body's box.
+// Lengths relative to the longest side of the body's bounding box.
 constexpr double far_outside = 0.1, longest_bone = 0.6, no_length = 0.004, real_length = 0.015,
                  merged_gap = 0.01, over_the_middle = 0.03;
-constexpr double stretch_allowed = 1.5;  // of the longest such bone of the training characters
-constexpr double min_ratio = 1e-3;       // lengths below it count alike
+constexpr double stretch_allowed = 1.5;  // relative to the longest such bone of the training characters
+constexpr double min_ratio = 1e-3;       // smaller lengths count as equal
 
 // 0 where it is fine or not measured, 1 where it is bad.
 template <class Measure>
@@ -71,19 +74,20 @@ double factor_of(const Criterion& one, const RigMeasures& measures) {
 
 double share(double part, double whole) { return whole > 0 ? part / whole : 0; }
 
-// A skeleton as lengths see it: its size does not count.
+// A skeleton for comparing lengths, independent of its size.
 struct Figure {
-  std::vector<std::optional<Vector3>> place;  // of the joints, in units of the longest side of the body's box
-  std::vector<int32_t> parent, pair;          // pair: the joint on the other side; -1: none
+  // Of the joints, in units of the longest side of the body's bounding box.
+  std::vector<std::optional<Vector3>> place;
+  std::vector<int32_t> parent, pair;  // pair: the joint on the other side; -1: none
   std::vector<char> is_left;
   Vector3 low = Vector3::Zero(), high = Vector3::Zero();
 
-  // Of the bone that ends in the joint; negative: none.
+  // Length of the bone that ends in the joint; negative: none.
   double length(size_t joint) const {
     const int32_t p = parent[joint];
     return p < 0 || !place[joint] || !place[p] ? -1 : (*place[joint] - *place[p]).norm();
   }
-  double gap(size_t joint) const {  // to its pair; negative: none
+  double gap(size_t joint) const {  // to its counterpart; negative: none
     const int32_t other = pair[joint];
     return other < 0 || !place[joint] || !place[other] ? -1 : (*place[joint] - *place[other]).norm();
   }
@@ -113,14 +117,14 @@ Figure figure_of(const CharacterRig& rig, const MatrixX3& positions) {
     result.parent.push_back(joint.parent);
   }
   result.pair = pairs_of(rig.rig.joints);
-  for (size_t j = 0; j < result.pair.size(); ++j)  // "left" stands before "right" in every spelling
+  for (size_t j = 0; j < result.pair.size(); ++j)  // "left" is before "right" in every spelling
     result.is_left.push_back(result.pair[j] >= 0 &&
                              rig.rig.joints[j].name < rig.rig.joints[result.pair[j]].name);
   set_box(result, positions);
   return result;
 }
 
-// Shapes of the exemplars with a rig: those most like the mesh, else all.
+// Shapes of the exemplars with a rig: those most similar to the mesh, else all.
 std::vector<const Exemplar*> teachers_of(const Detection& detection) {
   std::vector<const Exemplar*> result;
   const auto& exemplars = detection.model->exemplars;
@@ -150,7 +154,7 @@ std::vector<Figure> teachers_figures(const std::vector<const Exemplar*>& teacher
   return result;
 }
 
-// What the training characters have in place of a length of the figure: nothing where none of them has it.
+// Range of a length of the figure on the training characters: empty where none of them has it.
 struct Range {
   double least = std::numeric_limits<double>::infinity(), most = 0, log_sum = 0;
   int32_t count = 0;
@@ -180,7 +184,7 @@ void measure_bones(const Figure& figure, const std::vector<Figure>& teachers, Ri
   out.bone_strain = share(strain, strained);
 }
 
-// The plane between the sides: {x: across . x = offset}; nothing where no pair lies apart.
+// The plane between the sides: {x: across . x = offset}; empty where no pair is apart.
 struct Middle {
   Vector3 across;
   double offset = 0;
@@ -191,7 +195,8 @@ std::optional<Middle> middle_of(const Figure& figure) {
   for (size_t j = 0; j < figure.place.size(); ++j) {
     if (!figure.is_left[j]) continue;
     const Vector3 &left = *figure.place[j], &right = *figure.place[figure.pair[j]];
-    result.across += (right - left).stableNormalized();  // each pair has one voice, however far it reaches
+    // Each pair has the same weight, whatever its distance.
+    result.across += (right - left).stableNormalized();
     between.push_back((left + right) / 2);
   }
   if (between.empty() || !(result.across.norm() > 1e-9)) return std::nullopt;
@@ -226,7 +231,7 @@ void measure_sides(const Figure& figure, const std::vector<Figure>& teachers, Ri
 }
 
 void measure_outside(const Figure& figure, const Rig& rig, RigMeasures& out) {
-  std::vector<char> moves(rig.joints.size(), rig.influences.empty());  // controls may lie anywhere
+  std::vector<char> moves(rig.joints.size(), rig.influences.empty());  // controls may be anywhere
   for (const VertexInfluences& influences : rig.influences)
     for (const Influence& one : influences)
       if (one.weight > 0) moves[one.joint] = 1;
@@ -240,8 +245,8 @@ void measure_outside(const Figure& figure, const Rig& rig, RigMeasures& out) {
   out.outside_share = share(outside, joints);
 }
 
-// The training character most like the mesh, posed by the joints that were found: the distance from it that a twentieth of the mesh exceeds.
-// A mean would hide legs that it leaves out.
+// The most similar training character, posed by the detected joints: the distance from it that a twentieth of
+// the mesh exceeds. A mean would hide missing legs.
 double uncovered(const Exemplar& teacher, const Rig& rig, const SurfaceAnalysis& analysis) {
   const ToCaller to_caller(analysis);
   std::vector<Matrix4> motion;
@@ -327,8 +332,9 @@ const char* name_of(Verdict verdict) {
   return verdict == Verdict::good ? "good" : verdict == Verdict::check ? "check" : "failed";
 }
 
-// Fitted on 1466 joints of 82 rigs, by three models, of characters that did not teach or came from other packs; by cross-validation over the
-// characters the expected calibration error is 0.05. Agreement says little: the fits of a body mostly err together.
+// Fitted on 1466 joints of 82 rigs, by three models, of characters that were not in the training set or came
+// from other packs; by cross-validation over the characters the expected calibration error is 0.05. Agreement
+// has little influence: the fits of a body usually have a common error.
 void calibrate_confidence(double quality, const FixedJoints& fixed, CharacterRig& rig) {
   constexpr double offset = -0.05, slope = 0.48, min_quality = 0.02, enough_agreement = 0.5;
   const double q = std::clamp(quality, min_quality, 1 - min_quality);

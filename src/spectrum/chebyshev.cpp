@@ -1,8 +1,8 @@
-// Subspace iteration in the shifted inverse, sharpened by Chebyshev polynomials (H. Rutishauser,
+// Subspace iteration in the shifted inverse, accelerated by Chebyshev polynomials (H. Rutishauser,
 // "Computational aspects of F. L. Bauer's simultaneous iteration method", 1969; Y. Zhou, Y. Saad, M. Tiago,
-// J. Chelikowsky, "Self-consistent- field calculations using Chebyshev-filtered subspace iteration", 2006).
-// All solves are made 32 at a time, so each entry of the factor is read once for 32 columns; the first rounds
-// in float, the last ones in double.
+// J. Chelikowsky, "Self-consistent-field calculations using Chebyshev-filtered subspace iteration", 2006).
+// Solves are done 32 at a time, so each entry of the factor is read once for 32 columns; the first rounds in
+// float, the last ones in double.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -22,12 +22,12 @@ constexpr int lanes = Columns::lanes;
 constexpr int max_degree = 30;
 constexpr double shift_over_last = 1;  // of the last column's eigenvalue: quick rounds without loss of rank
 
-// How much a round may lift the first eigenvector over a column's own: more, and the rounding noise of float
-// along the first ones would drown the rest. On Ritz pairs noise is relative to the residual.
+// Maximum growth of the first eigenvector relative to a column's own in one round: with more, float rounding
+// noise along the first ones would dominate the others. On Ritz pairs noise is relative to the residual.
 constexpr double first_lift = 1e3, random_lift = 1e7, ritz_lift = 1e9;
 
-// The degrees of a round for each block: what its wanted columns still miss, as gain to the tolerance.
-// Columns beyond the wanted ones help best when they keep up with the last of those.
+// The degrees of a round for each block: the remaining residual of its wanted columns, as gain to the
+// tolerance. Columns beyond the wanted ones help most when they converge as fast as the last of those.
 std::vector<int> choose_degrees(const Filter& filter, const Vector& residuals, double tolerance,
                                 const Vector& lambda, int blocks) {
   const auto count = static_cast<int>(residuals.size());
@@ -59,7 +59,8 @@ Columns random_columns(int64_t n, int blocks, const Execution& execution) {
   return X;
 }
 
-// In two steps: after the first the columns are made orthogonal, so that float can hold them apart for longer.
+// In two steps: after the first the columns are orthogonalised, so that they stay independent in float for
+// longer.
 void filter_random_columns(const Filter& filter, const ShiftedFactor& factor, const Columns& X,
                            const Execution& execution) {
   for (const double lift : {first_lift, random_lift}) {
@@ -87,9 +88,9 @@ double norm_bound(const SparseMatrix& A) {
   return largest;
 }
 
-// The first shift follows Weyl's law, but needles have eigenvalues far above it, and a surface in many parts
-// has many near zero: a shift far too small drowns the last columns in rounding noise, one far too large
-// cannot tell them apart.
+// The first shift follows Weyl's law, but thin shapes have eigenvalues far above it, and a surface of many
+// parts has many near zero. Much too small a shift drowns the last columns in rounding noise; much too large
+// a shift cannot separate them.
 void follow_spectrum(ShiftedFactor& factor, const StandardProblem& problem, double last,
                      const Execution& execution) {
   const double shift = std::max(shift_over_last * last, 1e-2 * problem.scale);
@@ -97,8 +98,9 @@ void follow_spectrum(ShiftedFactor& factor, const StandardProblem& problem, doub
     factor = factor.with_shift(problem.A, shift, execution);
 }
 
-// |A x - lambda x| / lambda of the wanted pairs. The zero eigenvalue is weighed against a thousandth of the
-// shift; and no residual can be smaller than the rounding of A x, which on slivers is all there is to reach.
+// |A x - lambda x| / lambda of the wanted pairs. The zero eigenvalue is measured relative to a thousandth of
+// the shift; and no residual can be smaller than the rounding error of A x, which limits the accuracy on
+// slivers.
 class Convergence {
  public:
   Convergence(const SparseMatrix& A, double tolerance)
@@ -117,12 +119,12 @@ class Convergence {
 Eigenbasis chebyshev_eigenpairs(const StandardProblem& problem, const Execution& execution) {
   const auto n = static_cast<int32_t>(problem.A.rows());
   const int count = problem.count;
-  // Rounds converge at the ratio of the last wanted to the first dropped eigenvalue: keep a quarter more than
-  // wanted.
+  // The convergence rate is the ratio of the last wanted to the first dropped eigenvalue: keep a quarter more
+  // than wanted.
   const int blocks = (count + count / 5 + 16 + lanes - 1) / lanes;
   const double columns_per_wanted = static_cast<double>(blocks * lanes) / count;
-  double last =
-      10 * problem.scale * columns_per_wanted;  // the last column's eigenvalue, as well as it is known
+  // The best current estimate of the last column's eigenvalue.
+  double last = 10 * problem.scale * columns_per_wanted;
   ShiftedFactor factor(problem.A, shift_over_last * last, problem.symbolic, execution);
   const Columns X = random_columns(n, blocks, execution);
   const Convergence convergence(problem.A, problem.tolerance);
@@ -134,7 +136,7 @@ Eigenbasis chebyshev_eigenpairs(const StandardProblem& problem, const Execution&
                   "ask for fewer eigenpairs, or repair the mesh first");
     if (round > 1) follow_spectrum(factor, problem, lambda(lambda.size() - 1), execution);
     const Filter filter{1 / (last + factor.shift), factor.shift};
-    // Float solves as long as they help; where A is too ill-conditioned for them, double ones.
+    // Float solves as long as they reduce the residual; double ones where A is too ill-conditioned for float.
     const bool in_float = round <= 1 || residual < 0.1 * previous;
     if (round == 0) {
       filter_random_columns(filter, factor, X, execution);
@@ -142,14 +144,14 @@ Eigenbasis chebyshev_eigenpairs(const StandardProblem& problem, const Execution&
     } else {
       const auto degrees = choose_degrees(filter, residuals, problem.tolerance, lambda, blocks);
       filter_columns(filter, factor, degrees, lambda, X, in_float, execution);
-      // Blocks that had converged may stay, once a precise round has made them orthogonal.
+      // Blocks that had converged may be locked once a precise round has orthogonalised them.
       const auto converged = round == 1 ? 0 : std::count(degrees.begin(), degrees.end(), 0);
       lambda = rayleigh_ritz(factor.A, X, lambda.head(converged * lanes).eval(), execution);
     }
     residuals =
         convergence.residuals(residual_norms(factor.A, X, lambda, execution), lambda, factor.shift, count);
     previous = std::exchange(residual, residuals.maxCoeff());
-    // Early on the last columns hold little but noise; and many separate parts have many zero eigenvalues.
+    // Early on the last columns are mostly noise; and a surface of many parts has many zero eigenvalues.
     last = std::min(lambda(lambda.size() - 1), 1.05 * columns_per_wanted * lambda(count - 1));
     last = std::max(last, 0.2 * factor.shift);
     execution.report(1 - std::pow(0.5, round + 1));

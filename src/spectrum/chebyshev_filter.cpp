@@ -35,9 +35,9 @@ FOCAL_MULTIVERSION(void recur(double scale, const double* weight, const double* 
                               const double* current, const double* source, double* next, int64_t n),
                    recur_body(scale, weight, previous, current, source, next, n);)
 
-// Later rounds, on Ritz pairs: with t the filter's argument at the Ritz value and r = A x - lambda x,
-// d_k = T_k x - T_k(t) x follows the same recurrence with a source of the size of r. So rounding errors are
-// relative to the residual, not to x, and float solves do: x <- x + d_degree / T_degree(t).
+// Later rounds, on Ritz pairs: with t the filter's argument at the Ritz value and r = A x - lambda x, d_k =
+// T_k x - T_k(t) x follows the same recurrence with a source of the size of r. So rounding errors are
+// relative to the residual, not to x, and float solves suffice: x <- x + d_degree / T_degree(t).
 template <class T>
 void correct(const Filter& filter, int degree, const ShiftedFactor& factor, const double* lambda,
              double* block, const Execution& execution) {
@@ -75,7 +75,7 @@ void correct(const Filter& filter, int degree, const ShiftedFactor& factor, cons
   factor.cholesky.solve_block(f.current.data());
   for (int64_t i = 0; i < n; ++i)
     for (int j = 0; j < lanes; ++j) {
-      const double grown = std::max(std::abs(chebyshev[j]), 1.0);  // beyond the cut T may vanish: x shrinks
+      const double grown = std::max(std::abs(chebyshev[j]), 1.0);  // above the cut T may vanish: x shrinks
       const double own = block[i * lanes + j] + f.source.data()[i * lanes + j] / (t[j] + 1);
       block[i * lanes + j] =
           (chebyshev[j] * own + (lambda[j] + filter.shift) * f.current.data()[i * lanes + j]) / grown;

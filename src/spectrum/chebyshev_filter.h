@@ -5,13 +5,13 @@
 
 namespace focal {
 
-// A + shift I, factored; A in the order of the factor, which does not depend on the shift.
+// A + shift I, factored; A is in the order of the factor, which does not depend on the shift.
 struct ShiftedFactor {
   double shift;
   SparseCholesky cholesky;
   SparseMatrix A;
 
-  // symbolic: the analysis of the matrix where it is known, or null.
+  // symbolic: the symbolic analysis of the matrix if known, or null.
   ShiftedFactor(const SparseMatrix& original, double shift, std::shared_ptr<const SymbolicFactor> symbolic,
                 const Execution& execution);
   // The same matrix with another shift.
@@ -23,7 +23,7 @@ struct Filter {
   double cut, shift;
 
   double argument(double lambda) const { return 2 / (cut * (lambda + shift)) - 1; }
-  // The degree at which the filter grows by this much at lambda, and its growth a degree, as a logarithm.
+  // The degree at which the filter grows by this factor at lambda, and its logarithmic growth per degree.
   double degree_to_grow(double growth, double lambda) const;
   double rate(double lambda) const;
 };
@@ -32,8 +32,8 @@ struct Filter {
 void filter_random(const Filter& filter, int degree, const ShiftedFactor& factor, double* block,
                    const Execution& execution);
 
-// Later rounds, on Ritz pairs (lambda, x): x <- T_degree x / T_degree(argument(lambda)), with float solves or
-// double ones. Either is exact for x that are eigenvectors.
+// Later rounds, on Ritz pairs (lambda, x): x <- T_degree x / T_degree(argument(lambda)), with float or double
+// solves. Both are exact for x that are eigenvectors.
 void filter_ritz_pairs(const Filter& filter, int degree, const ShiftedFactor& factor, const double* lambda,
                        double* block, bool in_float, const Execution& execution);
 

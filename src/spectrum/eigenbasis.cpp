@@ -1,4 +1,5 @@
-// The generalised problem is turned into an ordinary one, A = M^-1/2 L M^-1/2, solved, and turned back.
+// Converts the generalised problem to an ordinary one, A = M^-1/2 L M^-1/2, solves it, and converts the
+// result back.
 #include "spectrum/eigenbasis.h"
 
 #include <Eigen/Eigenvalues>

@@ -13,8 +13,8 @@ struct Eigenbasis {
   Matrix Phi;     // n x k, Phi^T M Phi = I
 };
 
-// chebyshev: blocks of solves, threaded, finds repeated eigenvalues; where it does not converge, spectra follows. spectra: one
-// solve after the other.
+// chebyshev: blocks of solves, threaded, finds repeated eigenvalues; falls back to spectra if it does not
+// converge. spectra: sequential solves, as a reference.
 enum class EigenMethod { spectra, chebyshev };
 
 struct EigenParams {
@@ -24,14 +24,14 @@ struct EigenParams {
   int32_t max_rounds = 40;  // of chebyshev; it needs 3 to 6
 };
 
-// L: n x n symmetric positive semi-definite; mass: n, > 0 (the diagonal of M). The same bits for any thread
-// count. Each eigenvector's entry of largest magnitude is positive. Throws mesh_too_small (n < 3),
-// not_converged, cancelled. Cost of 200 pairs at 12,500 vertices: chebyshev 0.7 s of one core, spectra 4 s.
-// symbolic: the analysis of L's pattern where it is known, or null.
+// L: n x n symmetric positive semi-definite; mass: n, > 0 (the diagonal of M). The same bits for any number
+// of threads. Each eigenvector's entry of largest magnitude is positive. Throws mesh_too_small (n < 3),
+// not_converged, cancelled. Cost of 200 pairs at 12,500 vertices: chebyshev 0.7 s on one core, spectra 4 s.
+// symbolic: the symbolic analysis of L if known, or null.
 Eigenbasis eigenbasis(const SparseMatrix& L, const Vector& mass, const EigenParams& params,
                       const Execution& execution, std::shared_ptr<const SymbolicFactor> symbolic = nullptr);
 
-// Eigenvectors have no sign of their own: makes the entry of largest magnitude positive.
+// The sign of an eigenvector is arbitrary: makes the entry of largest magnitude positive.
 void fix_sign(Eigen::Ref<Vector> phi);
 
 }  // namespace focal

@@ -4,8 +4,8 @@
 
 namespace focal {
 
-// scale: a typical spacing of the wanted eigenvalues. A is singular, so the solvers factor A + shift I, with
-// a shift of that size: small enough for quick convergence, large enough to keep every digit of large
+// scale: a typical spacing of the wanted eigenvalues. A is singular, so the solvers factor A + shift I with a
+// shift of that size: small enough for fast convergence, large enough to keep every digit of large
 // eigenvalues.
 struct StandardProblem {
   SparseMatrix A;
@@ -16,12 +16,12 @@ struct StandardProblem {
   int32_t max_rounds = 40;                                   // of the Chebyshev iteration
 };
 
-// All of them at once, for matrices little larger than the count.
+// All eigenpairs at once, for matrices little larger than the count.
 Eigenbasis dense_eigenpairs(const StandardProblem& problem);
 // A + shift I.
 SparseMatrix shifted(SparseMatrix A, double shift);
 
-// One Krylov space, one solve after the other: the check on the other, and what is left where that does not converge.
+// One Krylov space with sequential solves, by Spectra: the reference, and the fallback of the next.
 Eigenbasis lanczos_eigenpairs(const StandardProblem& problem, const Execution& execution);
 // Blocks of 32 solves at once: fast. Throws not_converged after max_rounds.
 Eigenbasis chebyshev_eigenpairs(const StandardProblem& problem, const Execution& execution);

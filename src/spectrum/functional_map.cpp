@@ -13,15 +13,16 @@ namespace focal {
 namespace {
 
 constexpr int lanes = 32;
-constexpr int64_t tile = 4;  // of the block kernels: rows come in fours
+constexpr int64_t tile = 4;  // of the block kernels: rows are in groups of four
 constexpr int between = PlacesBetween::vertices;
-// Of sqrt(area), once and a half the distance of spread vertices: with 3 landmarks 5 of 24 toys lose one, 10 where all count.
+// In sqrt(area), one and a half times the distance of spread vertices: with 3 landmarks 5 of 24 toys lose
+// one, and 10 when all nearest vertices are used.
 constexpr double neighbourhood = 0.06;
 
 int64_t round_up(int64_t n, int64_t to) { return (n + to - 1) / to * to; }
 
-// Rows of a matrix, 32 of them side by side: entry (i, c) is at [(i / 32 * columns + c) * 32 + i % 32]. The last block
-// is filled up with copies of the last row.
+// Rows of a matrix, 32 of them interleaved: entry (i, c) is at [(i / 32 * columns + c) * 32 + i % 32]. The
+// last block is padded with copies of the last row.
 class RowBlocks {
  public:
   template <class RowOf>  // RowOf(i): pointer to `columns` floats
@@ -43,8 +44,9 @@ class RowBlocks {
 
 constexpr float worst = -std::numeric_limits<float>::infinity();
 
-// The targets nearest to a point, by score, best first and the first of equal ones. The point lies between all but the last
-// of them: that one's score is where weights end, so that nothing jumps when another target takes its place.
+// The nearest targets of a point, best score first, the first of equal ones. The point is between all but the
+// last of them: that one's score is where the weights become 0, so that they are continuous when another
+// target takes its place.
 template <int kept>
 struct NearestFew {
   float score[kept];
@@ -55,7 +57,7 @@ struct NearestFew {
     for (; at > 0 && next > score[at - 1]; --at) score[at] = score[at - 1], target[at] = target[at - 1];
     score[at] = next, target[at] = number;
   }
-  // Of the first kept - 1; they sum to 1. near(i): a factor of 0 to 1, 1 of the first.
+  // Weights of the first kept - 1; they sum to 1. near(i): a factor of 0 to 1, 1 for the first.
   template <class Near>
   void weigh(float* weight, const Near& near) const {
     int last = kept - 1;
@@ -77,7 +79,8 @@ FOCAL_MULTIVERSION(
       better[r] = any;
     })
 
-// Nearest targets by blocks: score = place . target - |target|^2 / 2 is largest where the distance is smallest.
+// Nearest targets by blocks: score = place . target - |target|^2 / 2 is largest where the distance is
+// smallest.
 template <int kept>
 class NearestSearch {
  public:
@@ -161,7 +164,7 @@ std::vector<NearestFew<kept>> few_nearest_rows(const RowMatrixf& places, const R
   return search.result();
 }
 
-// One map in the making.
+// One map during its computation.
 class ZoomOut {
  public:
   ZoomOut(const SpectralSamples& from, const SpectralTargets& to, PlacesBetween initial,
@@ -201,8 +204,9 @@ class ZoomOut {
   }
 
  private:
-  // C = (Phi^T W Phi)^-1 Phi^T W Phi_to(images): the least-squares fit. Images lie between vertices: were each a whole one, a
-  // rounding could decide between two, the fit would jump, and more points with it from round to round.
+  // C = (Phi^T W Phi)^-1 Phi^T W Phi_to(images): the least-squares fit. Images are between vertices: with
+  // whole vertices a rounding error could decide between two, change the fit, and move more points from round
+  // to round.
   void fit(int32_t k) {
     const int64_t rows = points_.rows(), known = from_.Phi.rows();
     map_.C.resize(k, k);
@@ -245,7 +249,7 @@ class ZoomOut {
     }
   }
 
-  // Of each point from `first` on, the targets that are nearest in the embedding of the points.
+  // For each point from `first` on, the nearest targets in the embedding of the points.
   std::vector<NearestFew<between + 1>> nearest(const RowBlocks& targets, int32_t count, int32_t k,
                                                int64_t first) const {
     NearestSearch<between + 1> search(from_.Phi.rows() - first, count);

@@ -1,6 +1,6 @@
 // The Rayleigh-Ritz procedure (B. Parlett, "The Symmetric Eigenvalue Problem", 1980, chapter 11) in chunks of
-// rows that stay in cache. Sums over rows are split in a fixed number of ranges, so the bits do not depend on
-// the threads.
+// rows that stay in cache. Sums over rows are split into a fixed number of ranges, so the bits do not depend
+// on the number of threads.
 #include "spectrum/rayleigh_ritz.h"
 
 #include <Eigen/Cholesky>
@@ -45,8 +45,8 @@ void for_each_product(const SparseMatrix& A, const Columns& X, int first, const 
   });
 }
 
-// A symmetric matrix as a sum over the ranges, each kept in tiles of 32 x 32, of which those with a <= b are
-// filled.
+// A symmetric matrix as a sum over the ranges, each stored in tiles of 32 x 32, of which those with a <= b
+// are set.
 template <class T>
 class TiledSum {
  public:
@@ -76,8 +76,8 @@ class TiledSum {
   AlignedArray<T> data_;
 };
 
-// The upper tiles of U^T V from column block `first` on, added up over one chunk of rows, block after block of
-// chunk_rows rows.
+// The upper tiles of U^T V from column block `first` on, accumulated over one chunk of rows, block after
+// block of chunk_rows rows.
 template <class T>
 void add_products(const TiledSum<T>& sum, int64_t range, int first, int blocks, int64_t rows, const T* U,
                   const T* V) {
@@ -88,7 +88,7 @@ void add_products(const TiledSum<T>& sum, int64_t range, int first, int blocks, 
 }
 
 template <class T>
-struct Rows {  // of all columns, copied to lie close together
+struct Rows {  // of all columns, copied to be contiguous
   AlignedArray<T> data;
   explicit Rows(const Columns& X) : data(chunk_rows * X.count()) {}
   void take(const double* from, int b, int64_t rows) {
@@ -96,7 +96,7 @@ struct Rows {  // of all columns, copied to lie close together
   }
 };
 
-// X^T X, the leading blocks up to `first` known to be orthonormal.
+// X^T X, where the leading blocks up to `first` are known to be orthonormal.
 template <class T>
 Matrix gram_matrix(const Columns& X, int first, const Execution& execution) {
   const TiledSum<T> sum(X.blocks, execution);
@@ -110,7 +110,7 @@ Matrix gram_matrix(const Columns& X, int first, const Execution& execution) {
   return gram;
 }
 
-// X^T A X, the leading blocks known to be eigenvectors with the eigenvalues `locked`.
+// X^T A X, where the leading blocks are known to be eigenvectors with the eigenvalues `locked`.
 template <class T>
 Matrix projection(const SparseMatrix& A, const Columns& X, const Vector& locked, const Execution& execution) {
   const int first = static_cast<int>(locked.size()) / lanes;
@@ -128,7 +128,7 @@ Matrix projection(const SparseMatrix& A, const Columns& X, const Vector& locked,
   return projected;
 }
 
-// X <- X C, of which the leading blocks up to `first` are left as they are.
+// X <- X C; the leading blocks up to `first` are not changed.
 template <class T>
 void rotate(const Columns& X, const Matrix& C, int first, const Execution& execution) {
   const int64_t p = X.count();
@@ -156,9 +156,9 @@ void rotate(const Columns& X, const Matrix& C, int first, const Execution& execu
   });
 }
 
-// C with (X C)^T (X C) = I, by the Cholesky factor of the Gram matrix of X. Where columns are dependent to
-// rounding there is none: then by eigenvectors, which leave the dependent directions short, and `complete` is
-// false.
+// C with (X C)^T (X C) = I, by the Cholesky factor of the Gram matrix of X. Where columns are numerically
+// dependent there is none; then by eigenvectors, which leave the dependent directions short, and `complete`
+// is false.
 struct Orthonormaliser {
   Matrix C;
   bool complete;
@@ -186,7 +186,7 @@ Orthonormaliser orthonormaliser(const Matrix& gram, bool of_floats) {
   return {unit.asDiagonal() * eigen.eigenvectors() * length.cwiseInverse().asDiagonal(), false};
 }
 
-// Returns the C that makes X C orthonormal. Directions that rounding has left short get their full length first.
+// Returns the C that makes X C orthonormal. First rescales directions that rounding has left short.
 template <class T>
 Matrix prepare_orthonormal(const Columns& X, const Execution& execution) {
   for (int attempt = 0;; ++attempt) {
@@ -205,7 +205,7 @@ Vector solve_all(const SparseMatrix& A, const Columns& X, const Execution& execu
   return eigen.eigenvalues();
 }
 
-// The columns after the locked ones are made orthogonal to these, and the problem is solved among them.
+// Orthogonalises the columns after the locked ones against these, and solves the problem among them.
 Vector solve_rest(const SparseMatrix& A, const Columns& X, const Vector& locked, const Execution& execution) {
   const int first = static_cast<int>(locked.size()) / lanes;
   const auto [C, complete] = orthonormaliser(gram_matrix<double>(X, first, execution), false);

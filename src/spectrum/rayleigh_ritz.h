@@ -9,7 +9,7 @@ namespace focal {
 // n x count() numbers in blocks of 32 interleaved columns (see SparseCholesky), one block after the other.
 struct Columns {
   static constexpr int lanes = SparseCholesky::lanes;
-  int64_t n, stride;  // rows; rows stored, a multiple of 4 (the kernels' step), the surplus 0
+  int64_t n, stride;  // rows; stored rows, a multiple of 4 (the kernels' step), padded with 0
   int blocks;
   AlignedArray<double> data;
 
@@ -19,12 +19,11 @@ struct Columns {
   double operator()(int64_t i, int j) const { return block(j / lanes)[i * lanes + j % lanes]; }
 };
 
-// Makes X orthonormal to the precision of float.
+// Makes X orthonormal to float precision.
 void orthonormalise_roughly(const Columns& X, const Execution& execution);
 
-// Replaces X by approximate eigenvectors of the symmetric A, unit and orthogonal; returns their eigenvalues,
-// ascending. The leading blocks, whole, that have converged already are left as they are: `locked` are their
-// eigenvalues.
+// Replaces X by approximate eigenvectors of the symmetric A, orthonormal; returns their eigenvalues,
+// ascending. Leading blocks that have completely converged are not changed: `locked` are their eigenvalues.
 Vector rayleigh_ritz(const SparseMatrix& A, const Columns& X, const Vector& locked,
                      const Execution& execution);
 // The same with float sums, in half the time, for columns that are filtered again.

@@ -10,7 +10,7 @@ std::vector<std::vector<int32_t>> find_peaks(const RowMatrixf& votes, int32_t la
   constexpr float gone = -std::numeric_limits<float>::infinity();
   std::vector<std::vector<int32_t>> peaks(landmarks);
   parallel_for(execution, landmarks, [&](int64_t l) {
-    Eigen::VectorXf left = votes.col(l);  // emptied round each peak found
+    Eigen::VectorXf left = votes.col(l);  // set to zero around each peak found
     while (static_cast<int32_t>(peaks[l].size()) < count) {
       Eigen::Index best = 0;
       const float vote = left.maxCoeff(&best);

@@ -10,19 +10,19 @@ namespace {
 
 constexpr int block_lanes = 32;
 
-constexpr int32_t tile = 8;  // samples at a time: their tables stay in the second-level cache
+constexpr int32_t tile = 8;  // samples at a time: their tables fit in the level 2 cache
 
 // One tile of samples over one range of vertices.
 struct TileVotes {
   const float* table[tile];
   const uint16_t* steps;  // of the range's first vertex, the tile's first sample
-  float to_row;           // rows a step
+  float to_row;           // rows per step
   int32_t count, last_row, stride;
   float* votes;
   int64_t vertices;
 };
 
-// Eight landmarks a vector, `vectors` of them stay in registers while the samples of the tile go by.
+// Eight landmarks per vector; `vectors` vectors stay in registers during the samples of the tile.
 template <int vectors>
 FOCAL_INLINE void add_tile(const TileVotes& t, int32_t lane) {
   typedef float Lane __attribute__((vector_size(32), may_alias, aligned(4)));
@@ -73,7 +73,7 @@ void add_distribution_votes(const VoteTables& tables, int32_t count, const Quant
 void add_isoline_votes(const RowMatrixf& radii, const float* distances, int32_t count, const Edges& edges,
                        double mu, RowMatrixf& votes) {
   const RowMatrixf weights = (-static_cast<float>(mu) * radii.array().square()).exp();
-  // The radii of a sample in ascending order: an edge crosses those between its two distances.
+  // The radii of a sample in ascending order: an edge is crossed by those between its two distances.
   std::vector<std::vector<std::pair<float, int32_t>>> sorted(count);
   for (int32_t j = 0; j < count; ++j) {
     for (int32_t l = 0; l < radii.cols(); ++l) sorted[j].emplace_back(radii(j, l), l);

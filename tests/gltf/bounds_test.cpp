@@ -84,14 +84,14 @@ TEST_CASE("one step beyond each bound is refused, the bound itself is not") {
       {"/accessors/0/sparse/count", 5, "count is 5, outside 1 to 4"},
       {"/accessors/0/sparse/indices", nullptr, "indices is not an object"},
       {"/accessors/0/sparse/indices/componentType", 5120, "componentType is 5120, outside 5121 to 5125"},
-      {"/accessors/0/sparse/indices/componentType", 5122, "has indices of a type that is none"},
+      {"/accessors/0/sparse/indices/componentType", 5122, "has indices of an unsupported type"},
       {"/accessors/0/sparse/indices/componentType", 5123, "reaching beyond its buffer view"},
       {"/accessors/0/sparse/indices/componentType", 5125, "reaching beyond its buffer view"},
       {"/accessors/0/sparse/indices/componentType", 5126, "componentType is 5126, outside 5121 to 5125"},
       {"/accessors/0/sparse/indices/byteOffset", -1, "byteOffset is -1, outside 0"},
       {"/accessors/0/sparse/values/byteOffset", 1, "reaching beyond its buffer view"},
       {"/meshes/0/primitives", json::array(), "primitives is missing or empty"},
-      {"/meshes/0/primitives/0", 1, "primitives holds something else than objects"},
+      {"/meshes/0/primitives/0", 1, "primitives contains something other than objects"},
       {"/meshes/0/primitives/0/attributes/POSITION", 3, "refers to element 3 of 3"},
       {"/meshes/0/primitives/0/attributes/NORMAL", 1,
        "has another number of entries than the other attributes"},
@@ -101,7 +101,7 @@ TEST_CASE("one step beyond each bound is refused, the bound itself is not") {
       {"/meshes/0/primitives/0/mode", 0, "no triangles"},
       {"/meshes/0/primitives/0/mode", 6, ""},
       {"/meshes/0/primitives/0/mode", 7, "mode is 7, outside 0 to 6"},
-      {"/meshes/0/primitives/0/targets/0", 1, "targets holds something else than objects"},
+      {"/meshes/0/primitives/0/targets/0", 1, "targets contains something other than objects"},
       {"/meshes/0/primitives/0/targets/0/POSITION", 1,
        "has another number of entries than the other attributes"},
       {"/nodes/0", 1, "nodes[0]. is not an object"},
@@ -131,7 +131,7 @@ TEST_CASE("one step beyond each bound is refused, the bound itself is not") {
       {"/asset/minVersion", "2.0", ""},
       {"/asset/minVersion", "2.1", "glTF version"},
       {"/asset", absent, "asset is missing"},
-      {"/extensionsRequired", {1}, "holds something else than names"},
+      {"/extensionsRequired", {1}, "contains something other than names"},
   };
   for (const Change& change : changes) {
     CAPTURE(std::string(change.place));
@@ -148,8 +148,8 @@ TEST_CASE("an entry that a sparse accessor replaces exists") {
     const auto at = file.root["bufferViews"][2]["byteOffset"].get<size_t>();
     file.bin[at + 1] = std::byte{last};
     const std::string error = error_of(glb_bytes(file.root.dump(), bin_chunk(file.bin)));
-    CHECK(
-        (last == 3 ? error.empty() : error.find("replaces an entry that is not there") != std::string::npos));
+    CHECK((last == 3 ? error.empty()
+                     : error.find("replaces an entry that does not exist") != std::string::npos));
   }
 }
 
@@ -215,7 +215,7 @@ TEST_CASE("headers and chunks of a .glb are taken at their word only as far as t
   contains(with(8, size - 1, size), "a chunk of");
   contains(with(12, 0, size), "the first chunk is not JSON");
   contains(with(12, size - 20, size), "JSON");
-  contains(with(12, size - 19, size), "bytes where");
+  contains(with(12, size - 19, size), "bytes, but only");
   contains(with(16, 0x004e4942, size), "the first chunk is not JSON");
   const auto followed_by = [&](std::vector<std::byte> chunk) {
     auto bytes = whole;
@@ -226,7 +226,7 @@ TEST_CASE("headers and chunks of a .glb are taken at their word only as far as t
   const auto text = [](const char* letters) { return bytes_of(std::string(letters, 8)); };
   CHECK(followed_by(text("\0\0\0\0MINE")) == "");  // an empty one of another kind
   contains(followed_by(text("\0\0\0\0JSON")), "two JSON chunks");
-  contains(followed_by(text("\1\0\0\0MINE")), "a chunk of 1 bytes where 0 are left");
+  contains(followed_by(text("\1\0\0\0MINE")), "a chunk of 1 bytes, but only 0 are left");
   auto twice = whole;
   const auto json_end = static_cast<size_t>(20 + (file.root.dump().size() + 3) / 4 * 4);
   twice.insert(twice.end(), whole.begin() + static_cast<ptrdiff_t>(json_end), whole.end());

@@ -226,5 +226,5 @@ TEST_CASE("a URI is data or the name of a file") {
   check_error(error_of(file.gltf("10% a%2.bin")), "lies in another file, '10% a%2.bin'");
   check_error(error_of(file.gltf("b\\a.bin")), "lies in another file, 'b/a.bin'");
   check_error(error_of(file.gltf("data:;base64,!!!!")), "is not a well-formed base64 data URI");
-  check_error(error_of(file.gltf("data:;base64,AAAA")), "is 72 where 3 bytes are");
+  check_error(error_of(file.gltf("data:;base64,AAAA")), "is 72, but the buffer has 3 bytes");
 }

@@ -115,13 +115,13 @@ TEST_CASE("joints and weights are four a vertex, for as many vertices as the mes
     file.root["accessors"][accessor]["type"] = "VEC3";
     const auto bytes = file.glb();
     CHECK_THROWS_WITH_AS(read_gltf_rig(bytes, read_gltf_memory(bytes).primitives),
-                         "joints or weights of a primitive are not four a vertex", Error);
+                         "joints or weights of a primitive are not four per vertex", Error);
   }
   const auto bytes = skinned_tetrahedron().glb();
   auto primitives = read_gltf_memory(bytes).primitives;
   primitives[0].vertex_count = 5;  // of another file
   CHECK_THROWS_WITH_AS(read_gltf_rig(bytes, primitives),
-                       "joints or weights of a primitive are not four a vertex", Error);
+                       "joints or weights of a primitive are not four per vertex", Error);
   GltfBuilder bare = tetrahedron();
   bare.root.erase("nodes"), bare.root.erase("scenes"), bare.root.erase("scene");
   const auto without_nodes = bare.glb();

@@ -297,7 +297,7 @@ TEST_CASE("trees are whole, breadth first, and their leaves hold samples") {
   RegressionTree tree = focal_test::small_tree(true, 0);
   CHECK(error_with(tree) == "");
   tree.child[2] = 1;
-  CHECK_THROWS_WITH_AS(error_with(tree), "a tree does not lie breadth first", Error);
+  CHECK_THROWS_WITH_AS(error_with(tree), "a tree is not in breadth-first order", Error);
   tree = focal_test::small_tree(true, 0);
   tree.feature.pop_back(), tree.threshold.pop_back(), tree.child.pop_back();  // an inner node with one child
   check_error(error_with(tree), "the leaves and nodes of a tree do not match");

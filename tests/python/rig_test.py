@@ -262,7 +262,7 @@ class Rigs(Case):
             return math.dist(joints[side + "UpperArm"].position, joints[side + "LowerArm"].position)
 
         self.assertAlmostEqual(length("left"), length("right"), 5)
-        self.assertTrue(any("does not stand alike on both sides" in warning for warning in skeleton.warnings))
+        self.assertTrue(any("is not symmetric" in warning for warning in skeleton.warnings))
 
     def test_helpers(self):
         names = rig_model().joint_names

@@ -134,7 +134,7 @@ TEST_CASE("a body that does not stand alike on both sides gets bones of the same
   const auto before = body.character.rig.influences;
   make_symmetric(body.mesh, {}, body.character);
   REQUIRE(body.character.warnings.size() == 1);
-  CHECK(body.character.warnings[0].find("does not stand alike on both sides") != std::string::npos);
+  CHECK(body.character.warnings[0].find("is not symmetric") != std::string::npos);
   for (size_t v = 0; v < before.size(); ++v)
     CHECK(row_of(before[v]) == row_of(body.character.rig.influences[v]));
   const auto& joints = body.character.rig.joints;

@@ -126,14 +126,14 @@ TEST_CASE("templates that make no sense are refused, by the joint's name") {
   using Joints = std::vector<TemplateJoint>;
   refused("no joints", [](Joints& joints) { joints.clear(); });
   refused("has no name", [](Joints& joints) { joints[2].name = ""; });
-  refused("is there twice", [](Joints& joints) { joints[2].name = joints[1].name; });
+  refused("occurs twice", [](Joints& joints) { joints[2].name = joints[1].name; });
   refused("does not come before it", [](Joints& joints) { joints[1].parent = joints[2].name; });
-  refused("ways to lie", [](Joints& joints) { joints[1].centre.clear(); });
-  refused("ways to lie", [](Joints& joints) { joints[1].surface = joints[1].centre; });
+  refused("exactly one position", [](Joints& joints) { joints[1].centre.clear(); });
+  refused("exactly one position", [](Joints& joints) { joints[1].surface = joints[1].centre; });
   refused("'elbow'", [](Joints& joints) { joints[1].centre = {"elbow"}; });
-  refused("other than two", [](Joints& joints) { joints[0].between.pop_back(); });
-  refused("other than two", [](Joints& joints) { joints[0].share = 1.5; });
-  refused("lie between it", [](Joints& joints) {
+  refused("exactly two places", [](Joints& joints) { joints[0].between.pop_back(); });
+  refused("exactly two places", [](Joints& joints) { joints[0].share = 1.5; });
+  refused("depends on itself", [](Joints& joints) {
     joints[1].centre.clear(), joints[1].between = {"middle", joints[2].name};
   });
 }
