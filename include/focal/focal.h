@@ -906,7 +906,7 @@ typedef struct focal_bind_params {
   uint32_t struct_size;
   int32_t max_influences; /* maximum number of joints that move one vertex: 1 to 8, default 4 */
   /* Non-empty names. NULL with joint_count 0: use the joints of the skins of the mesh's own file; then the fields
-     below are NULL too, and a joint that is no vertex's main joint in that file (a pole, a target) moves no vertex
+     below are NULL too, and a joint that is not the main joint of any vertex in that file (a pole, a target) moves no vertex
      here either, unless this holds for all joints. */
   const char* const* joint_names;
   uint64_t joint_count;         /* at most 65,536 */

@@ -28,7 +28,7 @@ constexpr Indication indications[] = {
      "the lengths of the bones are unlike those of the training characters"},
     {&RigMeasures::uncovered, 0.04, 0.2, 2.6, 0.6,
      "a training character that takes this pose does not cover the mesh"},
-    {&RigMeasures::category_fit, 0.4, 0, 1.5, 0.7, "the mesh is unlike the characters that taught the model"},
+    {&RigMeasures::category_fit, 0.4, 0, 1.5, 0.7, "the mesh is unlike the training characters of the model"},
     {&RigMeasures::heading_margin, 0.06, 0, 0.3, 0.7,
      "a training character that faces the other way fits the surface nearly as well"}};
 

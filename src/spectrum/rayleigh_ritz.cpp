@@ -157,7 +157,7 @@ void rotate(const Columns& X, const Matrix& C, int first, const Execution& execu
 }
 
 // C with (X C)^T (X C) = I, by the Cholesky factor of the Gram matrix of X. Where columns are numerically
-// dependent there is none; then by eigenvectors, which leave the dependent directions short, and `complete`
+// dependent that factor does not exist; then by eigenvectors, which leave the dependent directions short, and `complete`
 // is false.
 struct Orthonormaliser {
   Matrix C;
