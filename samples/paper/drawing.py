@@ -26,7 +26,7 @@ errors in mean edge lengths of the test mesh.</p>\n"""
 
 
 def section(docstring, body, values):
-    """Of a table or figure: the docstring of the function that makes it is its title and its words, with values in them."""
+    """Of a table or figure: its title and its words are the docstring of the function that makes it."""
     title, _, words = inspect.cleandoc(docstring).format(**values).partition("\n")
     return f"<section><h3>{title}</h3><p>{words}</p>{body}</section>\n"
 

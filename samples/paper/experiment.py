@@ -80,7 +80,7 @@ class Study:
                                   for split, count in (("train", 4 if quick else 10), ("test", 2 if quick else 4)))
         if not self.tests:
             raise ValueError(f"{folder} has no test mesh")
-        self.test, self.seconds, self.models = self.tests[0], {preset: StageClock() for preset in PRESETS}, {}
+        self.test, self.seconds = self.tests[0], {preset: StageClock() for preset in PRESETS}
         self.models = {preset: learn(self.train, self.landmarks, self.seconds[preset], preset=preset) for preset in PRESETS}
         self.found = {preset: [model.detect(shape.mesh) for shape in self.tests] for preset, model in self.models.items()}
         self.title, self.trees = self.name + quick * " (few shapes)", {"tree_count": 10} if quick else {}  # trees: of models for one figure

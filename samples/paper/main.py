@@ -11,33 +11,32 @@ import time
 
 import focal
 
-import methods
-import results
+import figures
 from drawing import HEAD, section
 from experiment import Study
 
-TABLES = results.performance, results.errors, methods.planes
-FOR_ALL = results.extraction, results.segmentation, results.correspondence
-FIGURES = (methods.pipeline, methods.adding, methods.descriptors, methods.symmetry, methods.metrics, methods.regression, results.by_training,
-           results.by_votes, results.extraction, results.few_marks, results.damage, results.resolution, *FOR_ALL[1:], results.missing_parts)
+FOR_ALL = figures.extraction, figures.applications
+FIGURES = (figures.pipeline, figures.descriptors, figures.symmetry, figures.metrics, figures.regression, figures.by_training, figures.by_votes,
+           figures.extraction, figures.few_marks, figures.damage, figures.resolution, figures.applications, figures.missing_parts)
 
 
 def write_page(path, folders, quick):
-    start, studies = time.perf_counter(), []
+    start = time.perf_counter()
 
-    def made(figure, name, given):
-        body, values = figure(given)
-        print(f"{time.perf_counter() - start:6.1f} s  {name}, {figure.__doc__.partition(':')[0]}", flush=True)
-        return section(figure.__doc__, body, values) if body else ""
+    def made(name, make, *given):
+        result, title = make(*given), make.__doc__.partition(":")[0]
+        print(f"{time.perf_counter() - start:6.1f} s  {name}, {title}", flush=True)
+        return section(make.__doc__, *result) if result[0] else ""
 
+    studies = []
     for folder in folders:
         studies.append(Study(folder, quick))
         print(f"{time.perf_counter() - start:6.1f} s  {studies[-1].name}, models", flush=True)
-    page = HEAD + "<h2>Tables</h2>\n" + "".join(made(figure, "all sets", studies) for figure in TABLES)
+    page = HEAD + "".join(made("all sets", make, studies) for make in (figures.performance, figures.errors, figures.planes))
     for study in studies:
         page += f"<h2>{study.name}, {len(study.train)} training and {len(study.tests)} test shapes</h2>\n"
         has_all = study is studies[0] or study.name == "scape"
-        page += "".join(made(figure, study.name, study) for figure in (FIGURES if has_all else FOR_ALL))
+        page += "".join(made(study.name, make, study) for make in (FIGURES if has_all else FOR_ALL))
         path.write_text(page, encoding="utf-8")  # what there is so far can be read already
 
 

@@ -12,8 +12,8 @@ import unittest
 import focal
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
-TITLES = ["Table 1", "Table 2", "Fig. 1:", "Fig. 2", "Fig. 3 a", "Fig. 3 b", "Fig. 4", "Fig. 5", "Fig. 6", "Fig. 7 a", "Fig. 7 b", "Fig. 7 c",
-          "Figs. 8 and 9", "Beside Schelling", "Fig. 10", "Fig. 11", "Fig. 12", "Fig. 13"]
+TITLES = ["Table 1", "Table 2", "Figs. 1 and 6", "Fig. 2", "Fig. 3 a", "Fig. 3 b", "Fig. 4", "Fig. 5", "Fig. 7 a, b", "Fig. 7 c", "Figs. 8 and 9",
+          "Beside Schelling", "Fig. 10", "Fig. 11", "Figs. 12 and 13"]
 
 
 def write_set(folder):
