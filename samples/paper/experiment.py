@@ -38,14 +38,15 @@ class Shape:
         return [math.dist(found[name], self.places[name]) / self.edge for name in landmarks if name in self.places]
 
 
-class StageClock(collections.Counter):
+class StageClock:
     """Seconds by stage of a call that it is the on_progress of."""
 
-    stage, last = "", 0.0
+    def __init__(self):
+        self.seconds, self.stage, self.last = collections.Counter(), "", time.perf_counter()
 
     def __call__(self, _, stage):
         now = time.perf_counter()
-        self[self.stage] += now - self.last
+        self.seconds[self.stage] += now - self.last
         self.stage, self.last = stage, now
 
 
@@ -66,7 +67,7 @@ def vote_picture(detection, shape, landmark, label, view=None):
 
 
 class Study:
-    """One set. models, found (a detection for each test shape) and seconds of training are by preset."""
+    """One set. models, found (a detection for each test shape) and clocks of training are by preset."""
 
     def __init__(self, folder, quick):
         marked = focal.MarkedSet.load(folder)
@@ -80,8 +81,8 @@ class Study:
                                   for split, count in (("train", 4 if quick else 10), ("test", 2 if quick else 4)))
         if not self.tests:
             raise ValueError(f"{folder} has no test mesh")
-        self.test, self.seconds = self.tests[0], {preset: StageClock() for preset in PRESETS}
-        self.models = {preset: learn(self.train, self.landmarks, self.seconds[preset], preset=preset) for preset in PRESETS}
+        self.test, self.clocks = self.tests[0], {preset: StageClock() for preset in PRESETS}
+        self.models = {preset: learn(self.train, self.landmarks, self.clocks[preset], preset=preset) for preset in PRESETS}
         self.found = {preset: [model.detect(shape.mesh) for shape in self.tests] for preset, model in self.models.items()}
         self.title, self.trees = self.name + quick * " (few shapes)", {"tree_count": 10} if quick else {}  # trees: of models for one figure
 

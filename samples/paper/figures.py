@@ -18,7 +18,7 @@ def performance(studies):
     for study in studies:
         count, lines = len(study.train), {}
         for preset in PRESETS:
-            train, test = study.seconds[preset], study.found[preset][0].seconds
+            train, test = study.clocks[preset].seconds, study.found[preset][0].seconds
             lines[preset] = [train["analysis"] / count, train["distances"] / count, train["forest"], test["spectrum"] + test["descriptors"],
                              test["geodesics"], test["forest"], test["vote"] + test["constellation"] + test["refine"], test["total"]]
         if study.name in SECONDS:
