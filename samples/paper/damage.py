@@ -37,8 +37,8 @@ def resampled(vertices, faces, wanted):
 
 
 def decimated(vertices, faces, wanted):
-    """The shortest edges go first: one end moves onto the other, where both share two neighbours, so that the surface stays one."""
-    faces, around = faces.tolist(), collections.defaultdict(set)
+    """The shortest edges go first: both ends become one in the middle, where they share two neighbours, so that the surface stays one."""
+    vertices, faces, around = vertices.copy(), faces.tolist(), collections.defaultdict(set)
     for number, face in enumerate(faces):
         for vertex in face:
             around[vertex].add(number)
@@ -52,6 +52,7 @@ def decimated(vertices, faces, wanted):
         _, a, b = heapq.heappop(queue)
         if a not in around or b not in around or b not in neighbours(a) or len(neighbours(a) & neighbours(b)) != 2:
             continue
+        vertices[b] = (vertices[a] + vertices[b]) / 2
         for number in around.pop(a):
             if b in faces[number]:
                 for vertex in set(faces[number]) - {a}:
