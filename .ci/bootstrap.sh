@@ -7,7 +7,7 @@ packages="g++ cmake ninja-build pkgconf libeigen3-dev libspectra-dev libtinygltf
 optional=  # tests that need them are skipped without
 if [ "${1:-}" = ci ]; then
   packages="$packages abigail-tools chromium clang clang-format-14 libclang-rt-dev valgrind"
-  optional="blender debootstrap python3-numpy xvfb"
+  optional="blender debootstrap python3-matplotlib python3-numpy xvfb"
   command -v node > /dev/null || optional="$optional nodejs npm"
 fi
 

@@ -16,10 +16,8 @@ namespace {
 // The drawing's unit is a tenth of a pixel, so that coordinates are short integers.
 constexpr int panel_width = 2300, panel_height = 3000, margin = 160, caption_height = 300;
 constexpr int slab_count = 28, shade_count = 26;
-constexpr int heats = 20,
-              heat_shades = 12;      // of a figure with heat: fewer shades, or each path holds but a triangle
 constexpr size_t long_caption = 24;  // letters that fit into a panel
-constexpr double ball_mesh = 46;
+constexpr double ball_radius = 46;
 
 int rounded(double x) { return static_cast<int>(std::lround(x)); }
 
@@ -51,26 +49,12 @@ std::string clay(int shade) {
   return colour(0.24 + 0.72 * t, 0.24 + 0.70 * t, 0.30 + 0.62 * t);
 }
 
-// Clay, amber, orange, red, dark red.
-std::string heat_colour(int heat, int shade) {
-  static constexpr double stops[5][3] = {
-      {0.80, 0.78, 0.74}, {0.98, 0.86, 0.55}, {0.97, 0.60, 0.25}, {0.85, 0.22, 0.16}, {0.50, 0.04, 0.16}};
-  const double place = 4.0 * heat / (heats - 1), light = 0.5 + 0.6 * (shade + 0.5) / heat_shades;
-  const int below = std::min(static_cast<int>(place), 3);
-  double channel[3];
-  for (int k = 0; k < 3; ++k) {
-    const double mixed = stops[below][k] + (place - below) * (stops[below + 1][k] - stops[below][k]);
-    channel[k] = std::min(1.0, mixed * light);
-  }
-  return colour(channel[0], channel[1], channel[2]);
-}
-
 // Hues a golden angle apart stay different however many marks there are.
-std::string hue(int index, double light = 1) {
+std::string hue(int index) {
   const double turn = std::fmod(0.02 + 0.61803398875 * index, 1.0);
   const auto channel = [&](double offset) {
     const double x = std::fabs(std::fmod(6 * (turn + offset), 6.0) - 3) - 1;
-    return std::min(1.0, light * (0.12 + 0.8 * std::clamp(x, 0.0, 1.0)));
+    return 0.12 + 0.8 * std::clamp(x, 0.0, 1.0);
   };
   return colour(channel(0), channel(2.0 / 3), channel(1.0 / 3));
 }
@@ -91,36 +75,20 @@ std::string path_of(const std::vector<const Patch*>& patches) {
 
 int step_of(double share, int steps) { return std::clamp(static_cast<int>(share * steps), 0, steps - 1); }
 
-enum class Paint { clay, heat, parts };
-
-Paint paint_of(const Figure& figure) {
-  return !figure.parts.empty() ? Paint::parts : figure.heat.empty() ? Paint::clay : Paint::heat;
-}
-
-// What paints a patch: a class of the drawing's style, or a colour. value: a step of heat, or a part.
-std::string paint_of(Paint kind, int value, int shade) {
-  if (kind == Paint::clay) return "class=\"s" + std::to_string(shade) + "\"";
-  const std::string paint =
-      kind == Paint::heat ? heat_colour(value, shade) : hue(value, 0.6 + 0.6 * (shade + 0.5) / heat_shades);
-  return "fill=\"" + paint + "\" stroke=\"" + paint + "\"";
-}
-
-std::string surface_of(const Panel& panel, Paint kind) {
+std::string surface_of(const Panel& panel) {
   const auto depth = [](const Patch& p) { return p.corners[0][2] + p.corners[1][2] + p.corners[2][2]; };
   double low = 1e300, high = -1e300;
   for (const Patch& patch : panel.patches)
     low = std::min(low, depth(patch)), high = std::max(high, depth(patch));
-  std::map<std::array<int, 3>, std::vector<const Patch*>> layers;  // by slab, then heat or part, then shade
+  std::map<std::array<int, 2>, std::vector<const Patch*>> layers;  // by slab, then shade
   for (const Patch& patch : panel.patches) {
     const int slab = static_cast<int>((depth(patch) - low) / (high - low + 1e-9) * slab_count);
-    layers[{slab, kind == Paint::parts ? patch.part : step_of(patch.heat, heats),
-            step_of(patch.shade, kind == Paint::clay ? shade_count : heat_shades)}]
-        .push_back(&patch);
+    layers[{slab, step_of(patch.shade, shade_count)}].push_back(&patch);
   }
   std::string svg;
   for (const auto& [key, patches] : layers) {
     const std::string path = path_of(patches);
-    if (!path.empty()) svg += "<path " + paint_of(kind, key[1], key[2]) + " d=\"" + path + "\"/>\n";
+    if (!path.empty()) svg += "<path class=\"s" + std::to_string(key[1]) + "\" d=\"" + path + "\"/>\n";
   }
   return svg;
 }
@@ -148,11 +116,11 @@ std::string balls_of(const Figure& figure, const Panel& panel, std::map<std::str
   for (const size_t i : order) {
     const Mark& mark = figure.marks[i];
     const bool hidden = !mark.inside && is_hidden(panel, i);
-    const std::string paint = mark.paint.empty() ? hue(colours.at(mark.name)) : mark.paint;
+    const std::string paint = hue(colours.at(mark.name));
     const std::string place = "cx=\"" + std::to_string(rounded(panel.marks[i][0])) + "\" cy=\"" +
                               std::to_string(rounded(panel.marks[i][1])) + "\"";
     svg += std::string("<g") + (hidden ? " opacity=\".3\"" : "") + "><title>" + escaped(mark.name) +
-           "</title><circle " + place + " r=\"" + std::to_string(rounded(ball_mesh)) + "\" fill=\"" +
+           "</title><circle " + place + " r=\"" + std::to_string(rounded(ball_radius)) + "\" fill=\"" +
            (mark.uncertain ? "none" : paint) + "\" stroke=\"" + (mark.uncertain ? paint : "#222") + "\"/>";
     if (!mark.uncertain) svg += "<circle " + place + " r=\"46\" fill=\"url(#shine)\"/>";
     svg += "</g>\n";
@@ -192,9 +160,9 @@ std::string draw(const std::vector<Figure>& figures, size_t columns) {
     const int x = panel_width * static_cast<int>(i % columns);
     const int y = (panel_height + caption_height) * static_cast<int>(i / columns);
     svg += "<g transform=\"translate(" + std::to_string(x + margin) + " " + std::to_string(y + margin) +
-           ")\">\n" + surface_of(panel, paint_of(figures[i])) + bones_of(figures[i], panel) +
-           balls_of(figures[i], panel, colours) + "<text x=\"" + std::to_string(panel_width / 2 - margin) +
-           "\" y=\"" + std::to_string(panel_height - margin + caption_height / 4) + "\"" +
+           ")\">\n" + surface_of(panel) + bones_of(figures[i], panel) + balls_of(figures[i], panel, colours) +
+           "<text x=\"" + std::to_string(panel_width / 2 - margin) + "\" y=\"" +
+           std::to_string(panel_height - margin + caption_height / 4) + "\"" +
            (figures[i].caption.size() > long_caption ? " style=\"font-size:112px\"" : "") + ">" +
            escaped(figures[i].caption) + "</text>\n</g>\n";
   }

@@ -14,15 +14,12 @@ struct Mark {
   std::string name;
   Point position;
   bool uncertain = false;  // drawn hollow
-  std::string paint = {};  // a colour of CSS; empty: one of its name's own
   bool inside = false;     // of the surface, through which it shows in full
 };
 
 struct Figure {
   std::vector<Point> positions;
   std::vector<std::array<uint32_t, 3>> triangles;  // counter-clockwise from outside
-  std::vector<double> heat;                        // 0..1 a vertex, drawn from clay to dark red; empty: clay
-  std::vector<int32_t> parts = {};  // instead of heat: a number a vertex, each drawn in a hue of its own
   std::vector<Mark> marks;
   std::vector<std::array<size_t, 2>> bones = {};  // pairs of marks, joined by lines
   std::string caption;

@@ -89,10 +89,7 @@ Panel fit_into_panel(const Figure& figure, double width, double height) {
     Point normal{};
     for (const uint32_t v : t)
       for (int k = 0; k < 3; ++k) normal[k] += normals[v][k];
-    double heat = 0;
-    for (const uint32_t v : t) heat += figure.heat.empty() ? 0 : figure.heat[v] / 3;
-    panel.patches.push_back({corners, shade_of(unit(turned(normal, figure))), heat,
-                             figure.parts.empty() ? 0 : figure.parts[t[0]]});
+    panel.patches.push_back({corners, shade_of(unit(turned(normal, figure)))});
   }
   for (const Mark& mark : figure.marks) panel.marks.push_back(placed(turned(mark.position, figure)));
   return panel;

@@ -9,8 +9,6 @@ namespace picture {
 struct Patch {
   std::array<Point, 3> corners;  // x right, y down, z towards the viewer
   double shade;                  // 0 dark .. 1 bright
-  double heat;                   // mean of the corners; 0 without
-  int32_t part = 0;              // of a corner; 0 without
 };
 
 struct Panel {
