@@ -19,7 +19,7 @@ body { font: 16px/1.45 sans-serif; max-width: 1180px; margin: auto; padding: 1.2
 img { max-width: 100%; border-radius: 8px; } figure { margin: 0; text-align: center; font-size: .8em; }
 table { border-collapse: collapse; margin: .6rem 0; } th, td { padding: .2rem .7rem; text-align: right; border-bottom: 1px solid #999; }
 </style><h1>The experiments of Xia et al. 2016</h1><p>Q. Xia, S. Li, H. Qin, A. Hao, <i>Automatic Extraction of Generic Focal Features on 3D
-Shapes via Random Forest Regression Analysis of Geodesics-in-Heat</i>, 2016: its tables and figures made anew, with the method exactly as
+Shapes via Random Forest Regression Analysis of Geodesics-in-Heat</i>, 2016: its tables and figures reproduced, with the method exactly as
 published (preset <b>paper</b>) and with the most accurate one (preset <b>default</b>), side by side. No model was trained on a test shape.
 Votes run from grey (none) over yellow to dark red (most). A green circle is marked by hand, a blue ball is found. Numbers in captions are
 errors in mean edge lengths of the test mesh.</p>\n"""

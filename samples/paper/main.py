@@ -1,4 +1,4 @@
-"""The tables and figures of Xia et al. 2016 made anew, for both presets, in one page.
+"""The tables and figures of Xia et al. 2016 for both presets, in one page.
 
     main.py [--quick] OUT.html SET...
 
