@@ -171,6 +171,10 @@ class GltfDocument {
   std::unique_ptr<Edited> edited_;
 };
 
+// Moves what of document.mesh() has a skin to where the animation has it, `time` seconds after its start. Throws invalid_argument: the file
+// has no such animation, or no skin.
+void pose(const GltfDocument& document, const std::string& animation, double time, GltfMesh& gltf);
+
 // A GLB from scratch: one mesh with smooth normals, and colours when given (vertices x 3, linear, 0..1, clamped) as COLOR_0.
 // Throws invalid_mesh (no triangles, a position that is not finite in float), invalid_argument (colour rows).
 std::vector<std::byte> write_glb(const TriangleMesh& mesh, const RowMatrixf& colours = {},

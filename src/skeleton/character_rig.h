@@ -25,6 +25,9 @@ struct CharacterRig {
   std::vector<std::string> warnings;
 };
 
+inline Vector3 place_of(const Joint& joint) { return joint.bind.topRightCorner<3, 1>(); }
+std::vector<std::string> names_of(const std::vector<Joint>& joints);
+
 // Per joint where its bones lead from it, summed; to its tip where there are none. parent: -1: a root.
 std::vector<Vector3> bone_directions(const std::vector<int32_t>& parent, const std::vector<Vector3>& place,
                                      const std::vector<Vector3>& tip);

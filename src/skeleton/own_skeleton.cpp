@@ -16,8 +16,6 @@ constexpr double short_of_skin = 0.9;        // share of the way to the skin tha
 constexpr float hardness = 1.5F;  // power of the weights
 constexpr double heat_strength = 4;
 
-Vector3 place_of(const Joint& joint) { return joint.bind.topRightCorner<3, 1>(); }
-
 // Joints that move vertices, and those above them up to the root.
 std::vector<char> leads_to_moving(const OwnSkeleton& skeleton) {
   std::vector<char> result = skeleton.moves;
