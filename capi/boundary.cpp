@@ -95,9 +95,4 @@ focal_status record_current_exception() noexcept {
 
 const char* last_error() noexcept { return error_text; }
 
-void require(const void* argument, const char* name) {
-  if (!argument)
-    throw Error(Status::invalid_argument, std::string(name) + " is NULL", "pass the address of a variable");
-}
-
 }  // namespace focal

@@ -38,15 +38,12 @@ focal_status guarded(Body&& body) noexcept {
   }
 }
 
-// For getters: what body() returns, or `otherwise` after a failure.
+// For getters: what body() returns, or 0 (NULL) after a failure.
 template <class Value, class Body>
-Value guarded_value(Value otherwise, Body&& body) noexcept {
-  Value value = otherwise;
-  guarded([&] { value = std::forward<Body>(body)(); });
+Value guarded_value(Body&& body) noexcept {
+  Value value{};
+  guarded([&] { value = static_cast<Value>(std::forward<Body>(body)()); });
   return value;
 }
-
-// The out_ argument is asked for before any work is done.
-void require(const void* argument, const char* name);
 
 }  // namespace focal

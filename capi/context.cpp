@@ -1,12 +1,17 @@
-#include "context.h"
-
+// How calls are run.
 #include <algorithm>
 #include <utility>
 
 #include "arguments.h"
 #include "base/library_folder.h"
 #include "boundary.h"
+#include "objects.h"
 #include "structs.h"
+
+FOCAL_STRUCT(focal_context_params, 48);
+static_assert(sizeof(void*) != 8 || (sizeof(focal_context_params) == 64 &&
+                                     offsetof(focal_context_params, memory_budget_bytes) == 48 &&
+                                     offsetof(focal_context_params, models_folder) == 56));
 
 namespace focal {
 namespace {
@@ -51,16 +56,6 @@ std::shared_ptr<ContextObject> make_context(const focal_context_params& params) 
 
 }  // namespace
 
-template <>
-struct StructTraits<focal_context_params> {
-  static constexpr const char* name = "focal_context_params";
-  static constexpr size_t first_size = 48;
-  static focal_context_params defaults() { return {}; }
-};
-static_assert(sizeof(void*) != 8 || (sizeof(focal_context_params) == 64 &&
-                                     offsetof(focal_context_params, memory_budget_bytes) == 48 &&
-                                     offsetof(focal_context_params, models_folder) == 56));
-
 focal_backend ContextObject::used_backend() const {
   return backend && backend->works() ? FOCAL_BACKEND_CUDA : FOCAL_BACKEND_CPU;
 }
@@ -70,6 +65,7 @@ const char* ContextObject::backend_reason() const { return backend ? backend->re
 Execution ContextObject::execution_with(Task* task) const {
   Execution with_task = execution;
   with_task.task = task;
+  with_task.check_cancelled();
   return with_task;
 }
 
@@ -89,10 +85,6 @@ void ContextObject::report_warnings(const std::vector<std::string>& warnings) co
 
 using namespace focal;
 
-focal_status focal_context_params_init(focal_context_params* params, size_t struct_size) {
-  return guarded([&] { init_struct(params, struct_size); });
-}
-
 focal_status focal_context_create(const focal_context_params* params, focal_context** out_context) {
   return guarded([&] {
     require(out_context, "out_context");
@@ -109,21 +101,20 @@ focal_status focal_context_destroy(focal_context* context) {
 }
 
 focal_backend focal_context_backend(const focal_context* context) {
-  return guarded_value<focal_backend>(0, [&] { return resolve<ContextObject>(context)->used_backend(); });
+  return guarded_value<focal_backend>([&] { return resolve<ContextObject>(context)->used_backend(); });
 }
 
 const char* focal_context_backend_reason(const focal_context* context) {
-  return guarded_value<const char*>(nullptr,
-                                    [&] { return resolve<ContextObject>(context)->backend_reason(); });
+  return guarded_value<const char*>([&] { return resolve<ContextObject>(context)->backend_reason(); });
 }
 
 uint64_t focal_context_memory_held(const focal_context* context) {
-  return guarded_value<uint64_t>(0, [&] {
+  return guarded_value<uint64_t>([&] {
     resolve<ContextObject>(context);
-    return static_cast<uint64_t>(std::max<int64_t>(memory_held(), 0));
+    return std::max<int64_t>(memory_held(), 0);
   });
 }
 
 int32_t focal_context_thread_count(const focal_context* context) {
-  return guarded_value<int32_t>(0, [&] { return resolve<ContextObject>(context)->execution.threads(); });
+  return guarded_value<int32_t>([&] { return resolve<ContextObject>(context)->execution.threads(); });
 }

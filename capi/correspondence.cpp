@@ -1,26 +1,45 @@
-#include "correspondence.h"
-
+// A point of one detected mesh for every vertex of another, and the parts of one under the model's names.
 #include <algorithm>
-#include <string>
 
 #include "arguments.h"
-#include "base/error.h"
+#include "base/atomic_file.h"
 #include "boundary.h"
-#include "structs.h"
-#include "surface_points.h"
-#include "task.h"
+#include "correspondence/segmentation.h"
+#include "objects.h"
+#include "skeleton/rig_transfer.h"
 
-namespace focal {
+using namespace focal;
+
 namespace {
 
 void check_vertices(const char* name, uint64_t count, const MeshObject& mesh) {
   check_count(name, count, static_cast<uint64_t>(mesh.mesh->source.vertex_count()), "the mesh", "vertices");
 }
 
-}  // namespace
-}  // namespace focal
+// The joint that moves each triangle most.
+std::vector<int32_t> segment_by_skeleton(const DetectionObject& object, const Execution& execution) {
+  const Detection& detection = object.detection;
+  const auto& by_template = object.model->by_template;
+  const CharacterRig rig =
+      by_template ? rig_by_template(*by_template, detection, execution) : transfer_rig(detection, execution);
+  std::vector<int32_t> joint;
+  for (const VertexInfluences& influences : rig.rig.influences)
+    joint.push_back(influences[0].weight > 0 ? influences[0].joint : -1);
+  return triangle_labels(*detection.mesh, joint);
+}
 
-using namespace focal;
+std::vector<int32_t> segment(const DetectionObject& object, focal_segmentation method,
+                             const Execution& execution) {
+  check_range("method", method, FOCAL_SEGMENTATION_AUTO, FOCAL_SEGMENTATION_SKELETON);
+  const bool has_skeleton = !object.model->info.joint_names.empty();
+  if (method == FOCAL_SEGMENTATION_AUTO)
+    method = has_skeleton ? FOCAL_SEGMENTATION_SKELETON : FOCAL_SEGMENTATION_GEODESIC;
+  if (method == FOCAL_SEGMENTATION_SKELETON) return segment_by_skeleton(object, execution);
+  if (method == FOCAL_SEGMENTATION_K_MEANS) return segment_k_means(object.detection, execution);
+  return segment_geodesic(object.detection, execution);
+}
+
+}  // namespace
 
 focal_status focal_correspondence_create(const focal_detection* source, const focal_detection* target,
                                          focal_task* task, focal_correspondence** out_correspondence) {
@@ -29,11 +48,10 @@ focal_status focal_correspondence_create(const focal_detection* source, const fo
     const auto from = resolve<DetectionObject>(source), to = resolve<DetectionObject>(target);
     const TaskLease lease(task);
     const Execution execution = from->model->context->execution_with(lease.task());
-    execution.check_cancelled();
     const auto object = std::make_shared<CorrespondenceObject>();
     object->from = from->mesh, object->to = to->mesh;
     object->map = dense_map(from->detection, to->detection, execution);
-    *out_correspondence = publish(object);
+    *out_correspondence = publish(object, *from->mesh);
   });
 }
 
@@ -64,5 +82,31 @@ focal_status focal_correspondence_carry(const focal_correspondence* corresponden
                                               1);
     const RowMatrixf carried = pulled_back(object->map, *object->to->mesh, values);
     std::copy_n(carried.data(), carried.size(), out_values);
+  });
+}
+
+focal_status focal_detection_segment(const focal_detection* detection, focal_segmentation method,
+                                     focal_task* task, uint64_t triangle_count, int32_t* out_labels) {
+  return guarded([&] {
+    require(out_labels, "out_labels");
+    const auto object = resolve<DetectionObject>(detection);
+    check_count("triangle_count", triangle_count,
+                static_cast<uint64_t>(object->mesh->mesh->source.triangle_count()), "the mesh", "triangles");
+    const TaskLease lease(task);
+    const Execution execution = object->model->context->execution_with(lease.task());
+    const auto labels = segment(*object, method, execution);
+    std::copy(labels.begin(), labels.end(), out_labels);
+  });
+}
+
+focal_status focal_detection_write_segments_gltf(const focal_detection* detection, focal_segmentation method,
+                                                 const char* path) {
+  return guarded([&] {
+    const auto object = resolve<DetectionObject>(detection);
+    const auto file = path_of(path);
+    check_suffix(file, true);
+    const auto labels = segment(*object, method, object->model->context->execution_with(nullptr));
+    const ColouredMesh parts = coloured(object->mesh->mesh->source, labels);
+    write_file_atomically(file, write_glb(parts.mesh, parts.colours, "parts"));
   });
 }

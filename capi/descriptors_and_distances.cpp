@@ -1,32 +1,20 @@
 // What training learns from, to look at: descriptors, distances, symmetry planes, regressed distances.
 #include <algorithm>
-#include <limits>
 #include <string>
 #include <vector>
 
-#include "analysis.h"
 #include "arguments.h"
-#include "base/error.h"
 #include "boundary.h"
-#include "context.h"
 #include "descriptors/descriptor.h"
 #include "geodesics/distance.h"
 #include "landmarks/regress.h"
-#include "mesh.h"
-#include "model.h"
+#include "objects.h"
 #include "paper/symmetry_plane.h"
 #include "structs.h"
-#include "surface_points.h"
-#include "task.h"
 
-namespace focal {
+using namespace focal;
 
-template <>
-struct StructTraits<focal_symmetry_plane> {
-  static constexpr const char* name = "focal_symmetry_plane";
-  static constexpr size_t first_size = 32;
-  static focal_symmetry_plane defaults() { return {}; }
-};
+FOCAL_STRUCT(focal_symmetry_plane, 32);
 static_assert(sizeof(focal_symmetry_plane) == 32 && offsetof(focal_symmetry_plane, support) == 24);
 static_assert(FOCAL_DESCRIPTOR_UNIQUE_SHAPE_CONTEXT == 4 && FOCAL_DISTANCE_COMMUTE_TIME == 3);
 
@@ -42,49 +30,22 @@ const DescriptorKind& descriptor_at(int32_t number) {
 }
 const DistanceKind& distance_at(int32_t number) { return kind_at(distance_kinds(), number, "distances"); }
 
-RowMatrix describe(const PreparedMesh& mesh, const DescriptorKind& kind, std::span<const int32_t> vertices,
-                   const Execution& execution) {
-  execution.begin_stage("spectrum", 0, 0.9);
-  const Operators operators = make_operators(mesh.surface, bridges_of(mesh));
-  const Eigenbasis basis = eigenbasis(operators.L, operators.mass, EigenParams{}, execution);
-  execution.begin_stage("descriptors", 0.9, 1);
-  return kind.describe({mesh.surface, operators, basis}, vertices, execution);
-}
-
-std::vector<float> measure(const PreparedMesh& mesh, const DistanceKind& kind, const SurfacePoint& source,
-                           const Execution& execution) {
-  execution.begin_stage("distances", 0, 1);
-  const auto bridges = bridges_of(mesh);
-  const Operators operators = make_operators(mesh.surface, bridges);
-  const auto distance = kind.make({mesh.surface, bridges, operators, true}, execution);
-  const RowMatrixf row = distance->distances(std::span(&source, 1), execution);
-  std::vector<float> result(mesh.surface_vertex.size(), std::numeric_limits<float>::infinity());
-  const auto unit = static_cast<float>(kind.is_length ? mesh.scale : 1);
-  for (size_t v = 0; v < result.size(); ++v)
-    if (mesh.surface_vertex[v] >= 0) result[v] = unit * row(0, mesh.surface_vertex[v]);
-  return result;
-}
-
 }  // namespace
-}  // namespace focal
-
-using namespace focal;
 
 uint32_t focal_descriptor_count(void) { return static_cast<uint32_t>(descriptor_kinds().size()); }
 
 uint32_t focal_distance_count(void) { return static_cast<uint32_t>(distance_kinds().size()); }
 
 const char* focal_descriptor_name(focal_descriptor descriptor) {
-  return guarded_value<const char*>(nullptr, [&] { return descriptor_at(descriptor).name.data(); });
+  return guarded_value<const char*>([&] { return descriptor_at(descriptor).name.data(); });
 }
 
 const char* focal_distance_name(focal_distance distance) {
-  return guarded_value<const char*>(nullptr, [&] { return distance_at(distance).name.data(); });
+  return guarded_value<const char*>([&] { return distance_at(distance).name.data(); });
 }
 
 uint32_t focal_descriptor_dimension(focal_descriptor descriptor) {
-  return guarded_value<uint32_t>(0,
-                                 [&] { return static_cast<uint32_t>(descriptor_at(descriptor).dimension); });
+  return guarded_value<uint32_t>([&] { return descriptor_at(descriptor).dimension; });
 }
 
 focal_status focal_mesh_describe(const focal_context* context, const focal_mesh* mesh,
@@ -120,13 +81,9 @@ focal_status focal_mesh_distances(const focal_context* context, const focal_mesh
     check_count("vertex_count", vertex_count, object->mesh->surface_vertex.size(), "the mesh", "vertices");
     const SurfacePoint place = point_in(*object->mesh, *source, "the source");
     const TaskLease lease(task);
-    const auto distances = measure(*object->mesh, kind, place, running->execution_with(lease.task()));
+    const auto distances = distances_on(*object->mesh, kind, place, running->execution_with(lease.task()));
     std::copy(distances.begin(), distances.end(), out_distances);
   });
-}
-
-focal_status focal_symmetry_plane_init(focal_symmetry_plane* plane, size_t struct_size) {
-  return guarded([&] { init_struct(plane, struct_size); });
 }
 
 focal_status focal_mesh_symmetry_plane(const focal_context* context, const focal_mesh* mesh, uint64_t seed,
@@ -148,8 +105,7 @@ focal_status focal_mesh_symmetry_plane(const focal_context* context, const focal
 }
 
 uint64_t focal_analysis_sample_count(const focal_analysis* analysis) {
-  return guarded_value<uint64_t>(0,
-                                 [&] { return resolve<AnalysisObject>(analysis)->analysis.samples.size(); });
+  return guarded_value<uint64_t>([&] { return resolve<AnalysisObject>(analysis)->analysis.samples.size(); });
 }
 
 focal_status focal_model_regress(const focal_model* model, const focal_analysis* analysis, uint32_t index,

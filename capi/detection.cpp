@@ -1,68 +1,50 @@
-#include "detection.h"
-
+// Landmarks found on a mesh.
 #include <algorithm>
 #include <limits>
-#include <mutex>
 #include <utility>
 
-#include "analysis.h"
 #include "analysis/analysis_file.h"
 #include "arguments.h"
 #include "base/atomic_file.h"
-#include "base/error.h"
 #include "boundary.h"
+#include "objects.h"
 #include "structs.h"
-#include "surface_points.h"
-#include "task.h"
 
-namespace focal {
+using namespace focal;
 
-template <>
-struct StructTraits<focal_detect_params> {
-  static constexpr const char* name = "focal_detect_params";
-  static constexpr size_t first_size = 56;
-  static focal_detect_params defaults();
-};
-static_assert(sizeof(void*) != 8 ||
-              (sizeof(focal_detect_params) == 72 && offsetof(focal_detect_params, fixed_points) == 56));
+namespace {
 
-template <>
-struct StructTraits<focal_landmark> {
-  static constexpr const char* name = "focal_landmark";
-  static constexpr size_t first_size = sizeof(focal_landmark);
-  static focal_landmark defaults() { return {}; }
-};
-static_assert(sizeof(void*) != 8 || (sizeof(focal_landmark) == 112 && offsetof(focal_landmark, point) == 40));
+// The fields that both sides call alike, either way.
+template <class To, class From>
+void copy_detect_fields(const From& from, To& to) {
+  to.sampling_rate = from.sampling_rate;
+  to.max_samples = from.max_samples;
+  to.peaks_per_landmark = from.peaks_per_landmark;
+  to.found_confidence = from.found_confidence;
+  to.absent_confidence = from.absent_confidence;
+  to.keep_votes = from.keep_votes;
+  to.seed = from.seed;
+}
 
-template <>
-struct StructTraits<focal_detection_info> {
-  static constexpr const char* name = "focal_detection_info";
-  static constexpr size_t first_size = 48;
-  static focal_detection_info defaults() { return {}; }
-};
-static_assert(sizeof(focal_detection_info) == 48 && offsetof(focal_detection_info, backend) == 40);
-
-template <>
-struct StructTraits<focal_stage_seconds> {
-  static constexpr const char* name = "focal_stage_seconds";
-  static constexpr size_t first_size = 96;
-  static focal_stage_seconds defaults() { return {}; }
-};
-static_assert(sizeof(focal_stage_seconds) == 96 && offsetof(focal_stage_seconds, total) == 88);
-
-focal_detect_params StructTraits<focal_detect_params>::defaults() {
+focal_detect_params default_detect_params() {
   const DetectParams params;
   focal_detect_params result{};
+  copy_detect_fields(params, result);
   result.quality = static_cast<focal_quality>(params.quality);
-  result.sampling_rate = params.sampling_rate;
-  result.max_samples = params.max_samples;
-  result.peaks_per_landmark = params.peaks_per_landmark;
-  result.found_confidence = params.found_confidence;
-  result.absent_confidence = params.absent_confidence;
-  result.keep_votes = params.keep_votes;
-  result.seed = params.seed;
   return result;
 }
+
+}  // namespace
+
+FOCAL_STRUCT_WITH_DEFAULTS(focal_detect_params, 56, default_detect_params);
+static_assert(sizeof(void*) != 8 ||
+              (sizeof(focal_detect_params) == 72 && offsetof(focal_detect_params, fixed_points) == 56));
+FOCAL_STRUCT(focal_landmark, sizeof(focal_landmark));
+static_assert(sizeof(void*) != 8 || (sizeof(focal_landmark) == 112 && offsetof(focal_landmark, point) == 40));
+FOCAL_STRUCT(focal_detection_info, 48);
+static_assert(sizeof(focal_detection_info) == 48 && offsetof(focal_detection_info, backend) == 40);
+FOCAL_STRUCT(focal_stage_seconds, 96);
+static_assert(sizeof(focal_stage_seconds) == 96 && offsetof(focal_stage_seconds, total) == 88);
 
 namespace {
 
@@ -78,14 +60,8 @@ DetectParams checked(const focal_detect_params* given) {
   check_flag("focal_detect_params.keep_votes", params.keep_votes);
   check_reserved("focal_detect_params", params.reserved);
   DetectParams result;
+  copy_detect_fields(params, result);
   result.quality = static_cast<Quality>(params.quality);
-  result.sampling_rate = params.sampling_rate;
-  result.max_samples = params.max_samples;
-  result.peaks_per_landmark = params.peaks_per_landmark;
-  result.found_confidence = params.found_confidence;
-  result.absent_confidence = params.absent_confidence;
-  result.keep_votes = params.keep_votes != 0;
-  result.seed = params.seed;
   return result;
 }
 
@@ -95,11 +71,9 @@ std::vector<std::optional<SurfacePoint>> fixed_places(const focal_detect_params&
   std::vector<std::optional<SurfacePoint>> places;
   if (!params.fixed_points && params.fixed_point_count == 0) return places;
   require(params.fixed_points, "focal_detect_params.fixed_points");
-  if (params.fixed_point_count != model.landmark_names.size())
-    throw Error(Status::invalid_argument,
-                "focal_detect_params.fixed_point_count is " + std::to_string(params.fixed_point_count) +
-                    ", the model has " + std::to_string(model.landmark_names.size()) + " landmarks",
-                "give a point, or one with FOCAL_NO_TRIANGLE, for each landmark of the model");
+  check_count("focal_detect_params.fixed_point_count", params.fixed_point_count, model.landmark_names.size(),
+              "the model", "landmarks",
+              "give a point, or one with FOCAL_NO_TRIANGLE, for each landmark of the model");
   for (size_t l = 0; l < model.landmark_names.size(); ++l) {
     places.emplace_back();
     if (params.fixed_points[l].triangle != FOCAL_NO_TRIANGLE)
@@ -140,9 +114,7 @@ struct Call {
       : model(resolve<ModelObject>(handle)),
         params(checked(given)),
         lease(task),
-        execution(model->context->execution_with(lease.task())) {
-    execution.check_cancelled();
-  }
+        execution(model->context->execution_with(lease.task())) {}
 };
 
 focal_detection* publish_detection(const Call& call, std::shared_ptr<const MeshObject> mesh,
@@ -155,7 +127,7 @@ focal_detection* publish_detection(const Call& call, std::shared_ptr<const MeshO
   object->warnings = object->mesh->warnings;
   object->warnings.insert(object->warnings.end(), object->detection.warnings.begin(),
                           object->detection.warnings.end());
-  return publish(object);
+  return publish(object, *call.model);
 }
 
 focal_detection* publish_with_times(const Call& call, const std::shared_ptr<const MeshObject>& mesh,
@@ -166,49 +138,15 @@ focal_detection* publish_with_times(const Call& call, const std::shared_ptr<cons
   return publish_detection(call, mesh, std::move(detection));
 }
 
-// One thread a mesh. An error names the mesh.
-std::vector<Detection> detect_each(const Call& call,
-                                   const std::vector<std::shared_ptr<const MeshObject>>& meshes) {
-  std::vector<Detection> found(meshes.size());
-  std::mutex telling;
-  size_t done = 0;
-  call.execution.begin_stage("detections", 0, 1);
-  parallel_for(call.execution, static_cast<int64_t>(meshes.size()), [&](int64_t i) {
-    Execution inner = call.execution.inner();
-    inner.backend = call.execution.backend;
-    try {
-      found[i] = detect(call.model->model, meshes[i]->mesh, call.params, inner);
-    } catch (const Error& error) {
-      throw Error(error.status(), "mesh " + std::to_string(i) + ": " + error.what(), error.hint());
-    }
-    const std::scoped_lock lock(telling);
-    call.execution.report(static_cast<double>(++done) / static_cast<double>(meshes.size()));
-  });
-  return found;
-}
-
 // Handles that are taken back unless all of them were made.
-class Handles {
- public:
+struct Handles {
+  std::vector<focal_detection*> made;
   ~Handles() {
-    for (focal_detection* one : made_) remove_handle(one, HandleType::detection);
+    for (focal_detection* one : made) remove_handle(one, HandleType::detection);
   }
-  void reserve(size_t count) { made_.reserve(count); }
-  void add(focal_detection* one) { made_.push_back(one); }
-  void give(focal_detection** out) { std::copy(made_.begin(), made_.end(), out), made_.clear(); }
-
- private:
-  std::vector<focal_detection*> made_;
 };
 
 }  // namespace
-}  // namespace focal
-
-using namespace focal;
-
-focal_status focal_detect_params_init(focal_detect_params* params, size_t struct_size) {
-  return guarded([&] { init_struct(params, struct_size); });
-}
 
 focal_status focal_model_detect(const focal_model* model, const focal_mesh* mesh,
                                 const focal_detect_params* params, focal_task* task,
@@ -235,13 +173,18 @@ focal_status focal_model_detect_many(const focal_model* model, const focal_mesh*
                   "call focal_model_detect for a mesh with fixed landmarks");
     const Call call(model, params, task);
     std::vector<std::shared_ptr<const MeshObject>> objects;
-    for (uint64_t i = 0; i < mesh_count; ++i) objects.push_back(resolve<MeshObject>(meshes[i]));
-    std::vector<Detection> found = detect_each(call, objects);
+    std::vector<std::shared_ptr<const PreparedMesh>> prepared;
+    for (uint64_t i = 0; i < mesh_count; ++i) {
+      objects.push_back(resolve<MeshObject>(meshes[i]));
+      prepared.push_back(objects.back()->mesh);
+    }
+    std::vector<Detection> found = detect_each(call.model->model, prepared, call.params, call.execution);
     Handles handles;
-    handles.reserve(found.size());
+    handles.made.reserve(found.size());
     for (size_t i = 0; i < found.size(); ++i)
-      handles.add(publish_with_times(call, objects[i], std::move(found[i])));
-    handles.give(out_detections);
+      handles.made.push_back(publish_with_times(call, objects[i], std::move(found[i])));
+    std::copy(handles.made.begin(), handles.made.end(), out_detections);
+    handles.made.clear();
   });
 }
 
@@ -257,7 +200,7 @@ focal_status focal_model_analyse(const focal_model* model, const focal_mesh* mes
     object->analysis =
         analyse_to_keep(call.model->info.params, object->mesh->mesh, call.params, call.execution, note);
     if (!note.empty()) call.model->context->report(FOCAL_LOG_WARNING, note);
-    *out_analysis = publish(object);
+    *out_analysis = publish(object, *object->mesh);
   });
 }
 
@@ -296,7 +239,7 @@ focal_status focal_analysis_load(const focal_context* context, const focal_mesh*
       object->analysis =
           parse_analysis(read_file(file), object->mesh->mesh, running->execution_with(nullptr));
     });
-    *out_analysis = publish(object);
+    *out_analysis = publish(object, *object->mesh);
   });
 }
 
@@ -304,14 +247,9 @@ focal_status focal_detection_destroy(focal_detection* detection) {
   return remove_handle(detection, HandleType::detection);
 }
 
-focal_status focal_landmark_init(focal_landmark* landmark, size_t struct_size) {
-  return guarded([&] { init_struct(landmark, struct_size); });
-}
-
 uint32_t focal_detection_landmark_count(const focal_detection* detection) {
-  return guarded_value<uint32_t>(0, [&] {
-    return static_cast<uint32_t>(resolve<DetectionObject>(detection)->detection.landmarks.size());
-  });
+  return guarded_value<uint32_t>(
+      [&] { return resolve<DetectionObject>(detection)->detection.landmarks.size(); });
 }
 
 focal_status focal_detection_get_landmark(const focal_detection* detection, uint32_t index,
@@ -322,10 +260,6 @@ focal_status focal_detection_get_landmark(const focal_detection* detection, uint
     check_index(index, landmarks.size(), "the detection", "landmarks");
     write_result(out_landmark, to_abi(landmarks[index], object->model->info.landmark_names[index]));
   });
-}
-
-focal_status focal_detection_info_init(focal_detection_info* info, size_t struct_size) {
-  return guarded([&] { init_struct(info, struct_size); });
 }
 
 focal_status focal_detection_get_info(const focal_detection* detection, focal_detection_info* out_info) {
@@ -343,31 +277,20 @@ focal_status focal_detection_get_info(const focal_detection* detection, focal_de
   });
 }
 
-focal_status focal_stage_seconds_init(focal_stage_seconds* seconds, size_t struct_size) {
-  return guarded([&] { init_struct(seconds, struct_size); });
-}
-
 focal_status focal_detection_get_seconds(const focal_detection* detection, focal_stage_seconds* out_seconds) {
   return guarded([&] {
     const StageSeconds from = resolve<DetectionObject>(detection)->detection.seconds;
     focal_stage_seconds to{};
-    to.load = from.load;
-    to.repair = from.repair;
-    to.proxy = from.proxy;
-    to.spectrum = from.spectrum;
-    to.descriptors = from.descriptors;
-    to.geodesics = from.geodesics;
-    to.forest = from.forest;
-    to.vote = from.vote;
-    to.constellation = from.constellation;
-    to.refine = from.refine;
+    to.load = from.load, to.repair = from.repair, to.proxy = from.proxy, to.spectrum = from.spectrum;
+    to.descriptors = from.descriptors, to.geodesics = from.geodesics, to.forest = from.forest;
+    to.vote = from.vote, to.constellation = from.constellation, to.refine = from.refine;
     to.total = from.total;
     write_result(out_seconds, to);
   });
 }
 
 const char* focal_detection_warning(const focal_detection* detection, uint32_t index) {
-  return guarded_value<const char*>(nullptr, [&] {
+  return guarded_value<const char*>([&] {
     return text_at(resolve<DetectionObject>(detection)->warnings, index, "the detection", "warnings");
   });
 }

@@ -11,7 +11,7 @@ namespace {
 
 struct Entry {
   HandleType type;
-  std::shared_ptr<void> object;
+  std::shared_ptr<HandleBase> object;
 };
 using Entries = std::unordered_map<uintptr_t, Entry>;
 
@@ -37,31 +37,11 @@ struct TableCloser {
 };
 const TableCloser closer;
 
-const char* name_of(HandleType type) {
-  switch (type) {
-    case HandleType::context:
-      return "focal_context";
-    case HandleType::mesh:
-      return "focal_mesh";
-    case HandleType::training_set:
-      return "focal_training_set";
-    case HandleType::model:
-      return "focal_model";
-    case HandleType::analysis:
-      return "focal_analysis";
-    case HandleType::detection:
-      return "focal_detection";
-    case HandleType::skeleton:
-      return "focal_skeleton";
-    case HandleType::correspondence:
-      return "focal_correspondence";
-    case HandleType::task:
-      return "focal_task";
-    case HandleType::blob:
-      return "focal_blob";
-  }
-  return "handle";
-}
+// In the order of HandleType.
+constexpr const char* type_names[] = {
+    "focal_context",   "focal_mesh",     "focal_training_set",   "focal_model", "focal_analysis",
+    "focal_detection", "focal_skeleton", "focal_correspondence", "focal_task",  "focal_blob"};
+const char* name_of(HandleType type) { return type_names[static_cast<size_t>(type)]; }
 
 [[noreturn]] void refuse(uintptr_t tag, HandleType wanted, const Entry* found) {
   const std::string name = name_of(wanted);
@@ -79,28 +59,25 @@ const char* name_of(HandleType type) {
 
 }  // namespace
 
-const void* insert_handle(HandleType type, std::shared_ptr<void> object) {
+const void* insert_handle(HandleType type, std::shared_ptr<HandleBase> object) {
   const std::scoped_lock lock(table_mutex);
   if (!entries) entries = new Entries;
   entries->emplace(next_tag, Entry{type, std::move(object)});
   return reinterpret_cast<const void*>(next_tag++);
 }
 
-std::shared_ptr<void> find_handle(const void* handle, HandleType type) {
+std::shared_ptr<HandleBase> find_handle(const void* handle, HandleType type) {
   const auto tag = reinterpret_cast<uintptr_t>(handle);
   const std::scoped_lock lock(table_mutex);
-  const Entry* found = nullptr;
-  if (entries) {
-    const auto at = entries->find(tag);
-    if (at != entries->end()) found = &at->second;
-  }
+  const auto at = entries ? entries->find(tag) : Entries::iterator{};
+  const Entry* const found = entries && at != entries->end() ? &at->second : nullptr;
   if (!found || found->type != type) refuse(tag, type, found);
   return found->object;
 }
 
 focal_status remove_handle(const void* handle, HandleType type) noexcept {
   if (!handle) return FOCAL_OK;
-  std::shared_ptr<void> last;  // freed after the lock is given back
+  std::shared_ptr<HandleBase> last;  // freed after the lock is given back
   const std::scoped_lock lock(table_mutex);
   if (!entries) return FOCAL_ERROR_INVALID_HANDLE;
   const auto at = entries->find(reinterpret_cast<uintptr_t>(handle));

@@ -21,41 +21,35 @@ enum class HandleType : int32_t {
   blob
 };
 
+// What all objects behind handles have in common.
+struct HandleBase {
+  std::shared_ptr<const MemoryBudget> memory_budget;  // of the object's context; null: none
+};
+template <class H, HandleType t>
+struct HandleObject : HandleBase {
+  using Handle = H;
+  static constexpr HandleType type = t;
+};
+
 // Each tag is given out once in the life of the process, so a stale one can never name a newer object.
-const void* insert_handle(HandleType type, std::shared_ptr<void> object);
+const void* insert_handle(HandleType type, std::shared_ptr<HandleBase> object);
 
 // Throws invalid_handle: NULL, stale, of another type, or not from here at all.
-std::shared_ptr<void> find_handle(const void* tag, HandleType type);
+std::shared_ptr<HandleBase> find_handle(const void* tag, HandleType type);
 
 // The object is freed here, or by the last call or result that still uses it. NULL is fine.
 focal_status remove_handle(const void* tag, HandleType type) noexcept;
 
-// An Object says which handle stands for it: `using Handle = focal_mesh;` and
-// `static constexpr HandleType type = HandleType::mesh;`.
 template <class Object>
 typename Object::Handle* publish(std::shared_ptr<Object> object) {
   const void* tag = insert_handle(Object::type, std::move(object));
   return static_cast<typename Object::Handle*>(const_cast<void*>(tag));
 }
-
-// Of the context behind an object; null where the object knows of none.
+// owner: whose memory budget the object keeps to.
 template <class Object>
-std::shared_ptr<const MemoryBudget> memory_budget_of(const Object& object) {
-  if constexpr (requires { object.memory_budget; }) {
-    return object.memory_budget;
-  } else if constexpr (requires { object.context->memory_budget; }) {
-    return object.context->memory_budget;
-  } else if constexpr (requires { object.model->context; }) {
-    return memory_budget_of(*object.model);
-  } else if constexpr (requires { object.detection->model; }) {
-    return memory_budget_of(*object.detection);
-  } else if constexpr (requires { object.mesh->memory_budget; }) {
-    return object.mesh->memory_budget;
-  } else if constexpr (requires { object.from->memory_budget; }) {
-    return object.from->memory_budget;
-  } else {
-    return nullptr;
-  }
+typename Object::Handle* publish(std::shared_ptr<Object> object, const HandleBase& owner) {
+  object->memory_budget = owner.memory_budget;
+  return publish(std::move(object));
 }
 
 // Shared ownership for the time of the call: another thread may destroy the handle meanwhile. From here on the call
@@ -63,7 +57,7 @@ std::shared_ptr<const MemoryBudget> memory_budget_of(const Object& object) {
 template <class Object>
 std::shared_ptr<Object> resolve(const typename Object::Handle* handle) {
   auto object = std::static_pointer_cast<Object>(find_handle(handle, Object::type));
-  ScopedMemoryBudget::adopt(memory_budget_of(*object));
+  ScopedMemoryBudget::adopt(object->memory_budget);
   return object;
 }
 

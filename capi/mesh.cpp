@@ -1,41 +1,21 @@
-#include "mesh.h"
-
+// The caller's triangles, or those of a glTF file, made ready to be analysed.
 #include <algorithm>
 #include <limits>
 #include <span>
 #include <utility>
 
 #include "arguments.h"
-#include "base/error.h"
 #include "base/stopwatch.h"
 #include "boundary.h"
-#include "gltf/document.h"
 #include "mesh/closest_point.h"
+#include "objects.h"
 #include "structs.h"
-#include "surface_points.h"
-#include "task.h"
 
-namespace focal {
+using namespace focal;
 
-template <>
-struct StructTraits<focal_mesh_params> {
-  static constexpr const char* name = "focal_mesh_params";
-  static constexpr size_t first_size = 64;
-  static focal_mesh_params defaults();
-};
-static_assert(sizeof(void*) != 8 ||
-              (sizeof(focal_mesh_params) == 96 && offsetof(focal_mesh_params, max_vertices) == 24 &&
-               offsetof(focal_mesh_params, pose_time) == 72 && offsetof(focal_mesh_params, lenient) == 80 &&
-               offsetof(focal_mesh_params, task) == 88));
+namespace {
 
-template <>
-struct StructTraits<focal_mesh_desc> {
-  static constexpr const char* name = "focal_mesh_desc";
-  static constexpr size_t first_size = sizeof(focal_mesh_desc);
-  static focal_mesh_desc defaults() { return {}; }
-};
-
-focal_mesh_params StructTraits<focal_mesh_params>::defaults() {
+focal_mesh_params default_mesh_params() {
   const PrepareParams prepare;
   const GltfReadParams read;
   focal_mesh_params params{};
@@ -52,6 +32,15 @@ focal_mesh_params StructTraits<focal_mesh_params>::defaults() {
   params.max_file_bytes = static_cast<uint64_t>(read.limits.file_bytes);
   return params;
 }
+
+}  // namespace
+
+FOCAL_STRUCT(focal_mesh_desc, sizeof(focal_mesh_desc));
+FOCAL_STRUCT_WITH_DEFAULTS(focal_mesh_params, 64, default_mesh_params);
+static_assert(sizeof(void*) != 8 ||
+              (sizeof(focal_mesh_params) == 96 && offsetof(focal_mesh_params, max_vertices) == 24 &&
+               offsetof(focal_mesh_params, pose_time) == 72 && offsetof(focal_mesh_params, lenient) == 80 &&
+               offsetof(focal_mesh_params, task) == 88));
 
 namespace {
 
@@ -162,14 +151,15 @@ std::vector<MeshPiece> pieces_of(std::span<const MeshPart> ranges) {
 }
 
 // What prepare leaves out, as the getters and the writers need it.
-void note_scenery(const PreparedMesh& mesh, std::span<const MeshPiece> pieces, MeshObject& object) {
+void note_scenery(const PreparedMesh& mesh, std::span<const MeshPiece> pieces,
+                  std::span<GltfPrimitive> primitives, MeshObject& object) {
   for (const Scenery& one : mesh.scenery) {
     object.left_out.push_back({static_cast<int32_t>(one.kind),
                                pieces.empty() ? "the mesh" : pieces[one.piece].name, one.triangle_count,
                                one.whole_piece});
     if (pieces.empty() || !one.whole_piece) continue;
     const MeshPiece& piece = pieces[one.piece];
-    for (GltfPrimitive& primitive : object.primitives) {
+    for (GltfPrimitive& primitive : primitives) {
       const int32_t from_first = primitive.first_triangle - piece.first_triangle;
       primitive.is_scenery |= from_first >= 0 && from_first < piece.triangle_count;
     }
@@ -178,7 +168,8 @@ void note_scenery(const PreparedMesh& mesh, std::span<const MeshPiece> pieces, M
 
 // Prepares the surface and fills what the getters answer with.
 void finish(MeshObject& object, TriangleMesh source, std::vector<MeshPiece> pieces,
-            const focal_mesh_params& params, const Execution& execution) {
+            std::span<GltfPrimitive> primitives, const focal_mesh_params& params,
+            const Execution& execution) {
   Stopwatch watch;
   PrepareParams prepare_params;
   prepare_params.weld = params.weld != 0;
@@ -189,13 +180,12 @@ void finish(MeshObject& object, TriangleMesh source, std::vector<MeshPiece> piec
   prepare_params.pieces = std::move(pieces);
   execution.begin_stage("repair", 0.5, 1);
   auto mesh = std::make_shared<const PreparedMesh>(prepare(std::move(source), prepare_params, execution));
-  object.positions.resize(static_cast<size_t>(mesh->source.positions.size()));
-  for (size_t i = 0; i < object.positions.size(); ++i)
-    object.positions[i] = static_cast<float>(mesh->source.positions.data()[i]);
+  const MatrixX3& positions = mesh->source.positions;
+  object.positions.assign(positions.data(), positions.data() + positions.size());
   object.mean_edge_length = mesh->scale * mean_edge_length(mesh->surface);
   object.surface_area = mesh->scale * mesh->scale * surface_area(mesh->surface);
   object.warnings.insert(object.warnings.end(), mesh->warnings.begin(), mesh->warnings.end());
-  note_scenery(*mesh, prepare_params.pieces, object);
+  note_scenery(*mesh, prepare_params.pieces, primitives, object);
   object.mesh = std::move(mesh);
   object.repair_seconds = watch.lap();
 }
@@ -211,32 +201,11 @@ focal_mesh* made_of(const focal_context* context, std::span<const focal_mesh_des
   check_size(ranges, how);
   const TaskLease lease(how.task);
   const auto object = std::make_shared<MeshObject>();
-  object->memory_budget = running->memory_budget;
   object->parts = ranges;
-  finish(*object, mesh_of(parts, ranges, how.lenient != 0), pieces_of(ranges), how,
+  finish(*object, mesh_of(parts, ranges, how.lenient != 0), pieces_of(ranges), {}, how,
          running->execution_with(lease.task()));
   running->report_warnings(object->warnings);
-  return publish(object);
-}
-
-// Moves what has a skin to where an animation has it at a time.
-void pose(const GltfDocument& document, const std::string& animation, double time, GltfMesh& gltf) {
-  const auto rig = document.rig(gltf.primitives);
-  const GltfAnimations found = document.animations();
-  std::string names;
-  for (const Clip& one : found.clips) {
-    names += (names.empty() ? "'" : ", '") + one.name + "'";
-    if (!rig || one.name != animation) continue;
-    const std::vector<Matrix4> world = world_transforms(found.tree, &one, time);
-    std::vector<Matrix4> transforms;
-    for (const Joint& joint : rig->joints) transforms.push_back(world[joint.node] * joint.bind.inverse());
-    gltf.mesh.positions = skinned(gltf.mesh.positions, rig->influences, transforms);
-    return;
-  }
-  std::string hint = "it has no skin that an animation could move";
-  if (rig) hint = names.empty() ? "it has no animations" : "it has: " + names;
-  throw Error(Status::invalid_argument, "the file has no animation '" + animation + "' of a skinned mesh",
-              hint);
+  return publish(object, *running);
 }
 
 // open(how) gives a GltfDocument.
@@ -249,40 +218,34 @@ focal_mesh* load(const focal_context* context, const focal_mesh_params* given, s
   const TaskLease lease(params.task);
   const Execution execution = running->execution_with(lease.task());
   const auto object = std::make_shared<MeshObject>();
-  object->memory_budget = running->memory_budget;
   Stopwatch watch;
   execution.begin_stage("reading", 0, 0.5);
-  const auto document = std::make_shared<const GltfDocument>(open(how));
-  GltfMesh gltf = document->mesh();
+  const GltfDocument document = open(how);
+  GltfMesh gltf = document.mesh();
   execution.check_cancelled();
-  if (params.pose_animation) pose(*document, params.pose_animation, params.pose_time, gltf);
+  if (params.pose_animation) pose(document, params.pose_animation, params.pose_time, gltf);
   object->load_seconds = watch.lap();
   object->name = std::move(name);
-  if (params.keep_source_file != 0 && !params.pose_animation) object->document = document;
-  object->primitives = std::move(gltf.primitives);
-  for (const GltfPrimitive& one : object->primitives)
+  for (const GltfPrimitive& one : gltf.primitives)
     object->parts.push_back({static_cast<uint64_t>(one.first_vertex), static_cast<uint64_t>(one.vertex_count),
                              static_cast<uint64_t>(one.first_triangle),
                              static_cast<uint64_t>(one.triangle_count)});
   object->warnings = std::move(gltf.warnings);
   for (std::string& hidden : gltf.hidden)
     object->left_out.push_back({FOCAL_SCENERY_HIDDEN, std::move(hidden)});
-  finish(*object, std::move(gltf.mesh), std::move(gltf.pieces), params, execution);
+  finish(*object, std::move(gltf.mesh), std::move(gltf.pieces), gltf.primitives, params, execution);
+  if (params.keep_source_file != 0 && !params.pose_animation)
+    object->file = std::make_shared<const SourceFile>(SourceFile{document, std::move(gltf.primitives)});
   running->report_warnings(object->warnings);
-  return publish(object);
+  return publish(object, *running);
 }
 
 }  // namespace
-}  // namespace focal
 
-using namespace focal;
-
-focal_status focal_mesh_params_init(focal_mesh_params* params, size_t struct_size) {
-  return guarded([&] { init_struct(params, struct_size); });
-}
-
-focal_status focal_mesh_desc_init(focal_mesh_desc* desc, size_t struct_size) {
-  return guarded([&] { init_struct(desc, struct_size); });
+const SourceFile& focal::file_of(const MeshObject& mesh, const char* missing, const std::string& way_out) {
+  if (mesh.file) return *mesh.file;
+  throw Error(Status::invalid_argument, missing,
+              way_out + "load it with focal_mesh_load_gltf and focal_mesh_params.keep_source_file 1");
 }
 
 focal_status focal_mesh_create(const focal_context* context, const focal_mesh_desc* desc,
@@ -330,12 +293,12 @@ focal_status focal_mesh_load_gltf_memory(const focal_context* context, const voi
 focal_status focal_mesh_destroy(focal_mesh* mesh) { return remove_handle(mesh, HandleType::mesh); }
 
 const float* focal_mesh_positions(const focal_mesh* mesh) {
-  return guarded_value<const float*>(nullptr, [&] { return resolve<MeshObject>(mesh)->positions.data(); });
+  return guarded_value<const float*>([&] { return resolve<MeshObject>(mesh)->positions.data(); });
 }
 
 const uint32_t* focal_mesh_triangles(const focal_mesh* mesh) {
   // Every index is >= 0, and the signed and unsigned type of one size may stand for each other.
-  return guarded_value<const uint32_t*>(nullptr, [&] {
+  return guarded_value<const uint32_t*>([&] {
     return reinterpret_cast<const uint32_t*>(resolve<MeshObject>(mesh)->mesh->source.triangles.data());
   });
 }
@@ -372,5 +335,16 @@ focal_status focal_mesh_closest_point(const focal_mesh* mesh, const float* posit
     const SurfaceQuery query{(place - prepared->centre) / prepared->scale, Vector3::Zero()};
     const double radius = 0.1;  // surfaces have area 1
     *out_point = point_out(to_source(*prepared, closest_points(prepared->surface, {&query, 1}, radius)[0]));
+  });
+}
+
+focal_status focal_mesh_write_wrap_gltf(const focal_mesh* mesh, const char* path) {
+  return guarded([&] {
+    const auto object = resolve<MeshObject>(mesh);
+    const auto file = path_of(path);
+    check_suffix(file, true);
+    const PreparedMesh& prepared = *object->mesh;
+    const TriangleMesh shell = in_source_coordinates(wrapped(prepared).source, prepared);
+    write_file_atomically(file, write_glb(shell, {}, "wrap"));
   });
 }

@@ -1,34 +1,19 @@
 // What reading and preparing a mesh found, did and left out.
 #include "arguments.h"
 #include "boundary.h"
-#include "mesh.h"
+#include "objects.h"
 #include "structs.h"
 
-namespace focal {
+using namespace focal;
 
-template <>
-struct StructTraits<focal_mesh_info> {
-  static constexpr const char* name = "focal_mesh_info";
-  static constexpr size_t first_size = 72;
-  static focal_mesh_info defaults() { return {}; }
-};
+FOCAL_STRUCT(focal_mesh_info, 72);
 static_assert(sizeof(focal_mesh_info) == 152 && offsetof(focal_mesh_info, repair_seconds) == 64 &&
               offsetof(focal_mesh_info, is_oriented) == 128 && offsetof(focal_mesh_info, is_wrapped) == 132);
 
-template <>
-struct StructTraits<focal_mesh_part> {
-  static constexpr const char* name = "focal_mesh_part";
-  static constexpr size_t first_size = sizeof(focal_mesh_part);
-  static focal_mesh_part defaults() { return {}; }
-};
+FOCAL_STRUCT(focal_mesh_part, sizeof(focal_mesh_part));
 static_assert(sizeof(focal_mesh_part) == 40 && offsetof(focal_mesh_part, first_vertex) == 8);
 
-template <>
-struct StructTraits<focal_left_out> {
-  static constexpr const char* name = "focal_left_out";
-  static constexpr size_t first_size = sizeof(focal_left_out);
-  static focal_left_out defaults() { return {}; }
-};
+FOCAL_STRUCT(focal_left_out, sizeof(focal_left_out));
 static_assert(sizeof(void*) != 8 || (sizeof(focal_left_out) == 32 && offsetof(focal_left_out, name) == 8));
 static_assert(FOCAL_SCENERY_SHEET == static_cast<int>(SceneryKind::sheet) &&
               FOCAL_SCENERY_ENCLOSURE == static_cast<int>(SceneryKind::enclosure) &&
@@ -64,13 +49,6 @@ focal_mesh_info info_of(const MeshObject& object) {
 }
 
 }  // namespace
-}  // namespace focal
-
-using namespace focal;
-
-focal_status focal_mesh_info_init(focal_mesh_info* info, size_t struct_size) {
-  return guarded([&] { init_struct(info, struct_size); });
-}
 
 focal_status focal_mesh_get_info(const focal_mesh* mesh, focal_mesh_info* out_info) {
   return guarded([&] {
@@ -79,13 +57,8 @@ focal_status focal_mesh_get_info(const focal_mesh* mesh, focal_mesh_info* out_in
   });
 }
 
-focal_status focal_mesh_part_init(focal_mesh_part* part, size_t struct_size) {
-  return guarded([&] { init_struct(part, struct_size); });
-}
-
 uint32_t focal_mesh_part_count(const focal_mesh* mesh) {
-  return guarded_value<uint32_t>(
-      0, [&] { return static_cast<uint32_t>(resolve<MeshObject>(mesh)->parts.size()); });
+  return guarded_value<uint32_t>([&] { return resolve<MeshObject>(mesh)->parts.size(); });
 }
 
 focal_status focal_mesh_get_part(const focal_mesh* mesh, uint32_t index, focal_mesh_part* out_part) {
@@ -98,10 +71,6 @@ focal_status focal_mesh_get_part(const focal_mesh* mesh, uint32_t index, focal_m
     to.first_triangle = from.first_triangle, to.triangle_count = from.triangle_count;
     write_result(out_part, to);
   });
-}
-
-focal_status focal_left_out_init(focal_left_out* left_out, size_t struct_size) {
-  return guarded([&] { init_struct(left_out, struct_size); });
 }
 
 focal_status focal_mesh_get_left_out(const focal_mesh* mesh, uint32_t index, focal_left_out* out_left_out) {
@@ -120,5 +89,5 @@ focal_status focal_mesh_get_left_out(const focal_mesh* mesh, uint32_t index, foc
 
 const char* focal_mesh_warning(const focal_mesh* mesh, uint32_t index) {
   return guarded_value<const char*>(
-      nullptr, [&] { return text_at(resolve<MeshObject>(mesh)->warnings, index, "the mesh", "warnings"); });
+      [&] { return text_at(resolve<MeshObject>(mesh)->warnings, index, "the mesh", "warnings"); });
 }

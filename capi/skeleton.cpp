@@ -1,65 +1,42 @@
-#include "skeleton.h"
-
+// Joints and skin weights: of a detected mesh, or weights for a skeleton that is there already.
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <numeric>
 #include <utility>
 
 #include "arguments.h"
-#include "base/error.h"
 #include "boundary.h"
-#include "gltf/document.h"
+#include "objects.h"
 #include "skeleton/bone_roles.h"
-#include "skeleton/ground_root.h"
-#include "skeleton/helper_bones.h"
-#include "skeleton/joint_match.h"
-#include "skeleton/stretched_arms.h"
-#include "skeleton_template.h"
+#include "skeleton/own_skeleton.h"
+#include "skeleton/template_file.h"
 #include "structs.h"
-#include "surface_points.h"
-#include "taken_animations.h"
-#include "task.h"
 
-namespace focal {
+using namespace focal;
 
-template <>
-struct StructTraits<focal_skeleton_params> {
-  static constexpr const char* name = "focal_skeleton_params";
-  static constexpr size_t first_size = offsetof(focal_skeleton_params, max_influences);
-  static focal_skeleton_params defaults() {
-    focal_skeleton_params params{};
-    params.max_influences = max_influences;
-    return params;
-  }
-};
+FOCAL_STRUCT_WITH_DEFAULTS(focal_skeleton_params, offsetof(focal_skeleton_params, max_influences),
+                           with_max_influences<focal_skeleton_params>);
 static_assert(sizeof(void*) != 8 || (sizeof(focal_skeleton_params) == 80 &&
                                      offsetof(focal_skeleton_params, joint_name_count) == 16 &&
                                      offsetof(focal_skeleton_params, fixed_joint_count) == 64));
-
-template <>
-struct StructTraits<focal_skeleton_info> {
-  static constexpr const char* name = "focal_skeleton_info";
-  static constexpr size_t first_size = 32;
-  static focal_skeleton_info defaults() { return {}; }
-};
+FOCAL_STRUCT(focal_skeleton_info, 32);
 static_assert(sizeof(focal_skeleton_info) == 56 && offsetof(focal_skeleton_info, unweighted_vertices) == 24 &&
               offsetof(focal_skeleton_info, quality) == 32 &&
               offsetof(focal_skeleton_info, guessed_joints) == 44);
+FOCAL_STRUCT(focal_joint, sizeof(focal_joint));
+static_assert(sizeof(void*) != 8 || (sizeof(focal_joint) == 64 && offsetof(focal_joint, tip) == 52));
+FOCAL_STRUCT_WITH_DEFAULTS(focal_bind_params, sizeof(focal_bind_params),
+                           with_max_influences<focal_bind_params>);
+static_assert(sizeof(void*) != 8 ||
+              (sizeof(focal_bind_params) == 64 && offsetof(focal_bind_params, joint_moves) == 56));
+
+namespace {
+
 static_assert(FOCAL_VERDICT_GOOD == static_cast<int>(Verdict::good) &&
               FOCAL_VERDICT_CHECK == static_cast<int>(Verdict::check) &&
               FOCAL_VERDICT_FAILED == static_cast<int>(Verdict::failed));
-
-template <>
-struct StructTraits<focal_joint> {
-  static constexpr const char* name = "focal_joint";
-  static constexpr size_t first_size = sizeof(focal_joint);
-  static focal_joint defaults() { return {}; }
-};
-static_assert(sizeof(void*) != 8 || (sizeof(focal_joint) == 64 && offsetof(focal_joint, tip) == 52));
-
-namespace {
+static_assert(FOCAL_POSE_OF_TEACHERS == static_cast<int>(RestPose::of_teachers) &&
+              FOCAL_POSE_A == static_cast<int>(RestPose::a) &&
+              FOCAL_BONE_NAMES_RIGIFY_METARIG == static_cast<int>(BoneNames::rigify_metarig));
 
 void check(const focal_skeleton_params& params) {
   check_range("focal_skeleton_params.names", params.names, FOCAL_BONE_NAMES_AS_TRAINED,
@@ -83,12 +60,16 @@ std::optional<SkeletonTemplate> template_of(const focal_skeleton_params& params,
   return result;
 }
 
-void check_names(const focal_skeleton_params& params, size_t joints) {
+std::vector<std::optional<std::string>> own_names(const focal_skeleton_params& params, size_t joints) {
   if (params.joint_names ? params.joint_name_count != joints : params.joint_name_count != 0)
     throw Error(Status::invalid_argument,
                 "focal_skeleton_params.joint_name_count is " + std::to_string(params.joint_name_count) +
                     ", the skeleton has " + std::to_string(joints) + " joints",
                 "give one name, or NULL, for each joint of the model or template");
+  std::vector<std::optional<std::string>> names(params.joint_names ? joints : 0);
+  for (size_t j = 0; j < names.size(); ++j)
+    if (params.joint_names[j]) names[j] = params.joint_names[j];
+  return names;
 }
 
 // In the caller's coordinates.
@@ -105,106 +86,97 @@ FixedJoints fixed_joints(const focal_skeleton_params& params, size_t joints) {
   return result;
 }
 
-// numbers: of the joints in the model or template, where some were dropped.
-void rename_joints(const focal_skeleton_params& params, const std::vector<size_t>& numbers,
-                   CharacterRig& rig) {
-  auto& joints = rig.rig.joints;
-  size_t known = 0;
-  const std::vector<std::string> names = names_by_role(joints, static_cast<BoneNames>(params.names), known);
-  if (known == 0)
-    rig.warnings.push_back("no bone has a role in this convention of names: all of them keep their own");
-  const auto own = [&](size_t j) { return params.joint_names ? params.joint_names[numbers[j]] : nullptr; };
-  for (size_t j = 0; j < joints.size(); ++j) joints[j].name = own(j) ? own(j) : names[j];
-}
-
-std::vector<size_t> kept_joints(const focal_skeleton_params& params, CharacterRig& rig) {
-  if (params.drop_helpers) return drop_helper_bones(rig);
-  std::vector<size_t> all(rig.rig.joints.size());
-  std::iota(all.begin(), all.end(), size_t{0});
-  return all;
-}
-
-std::vector<Matrix4> shown_pose(focal_pose pose, const CharacterRig& rig) {
-  if (rig.rest.empty())
-    throw Error(Status::invalid_argument, "the template has no rest pose",
-                R"(give its joints a "rest": the way their bones point)");
-  if (pose == FOCAL_POSE_OF_TEACHERS) return rig.rest;
-  constexpr double below = std::numbers::pi / 4;
-  const auto result = stretched_arms(rig.rig.joints, rig.rest, pose == FOCAL_POSE_A ? below : 0.0);
-  if (result.empty())
-    throw Error(Status::invalid_argument, "the skeleton has no two arms, which a T or A pose is made of",
-                "ask for the rest pose of the characters that taught the model, FOCAL_POSE_OF_TEACHERS");
-  return result;
-}
-
-void put_root(const focal_skeleton_params& params, SkeletonObject& object) {
-  const bool capital = params.names == FOCAL_BONE_NAMES_UNITY;
-  add_ground_root(capital ? "Root" : "root", object.mesh->mesh->source, object.rig);
-  if (!object.shown_pose.empty())
-    object.shown_pose.insert(object.shown_pose.begin(), object.rig.rig.joints.front().bind);
-  for (JointAnimation& one : object.animations) one.joints.insert(one.joints.begin(), JointKeys{});
-}
-
-void set_verdict(SkeletonObject& object, const RigMeasures& measures) {
-  object.verdict = verdict_of(measures), object.quality = rig_quality(measures);
-  object.guessed_joints = static_cast<uint32_t>(
-      std::lround(measures.absent_share * static_cast<double>(object.rig.rig.joints.size())));
-  if (object.verdict == Verdict::good) return;
-  std::string text = object.verdict == Verdict::failed ? "the rig failed" : "the rig should be looked at";
-  const std::vector<std::string> doubts = doubts_about(measures);
-  for (size_t i = 0; i < doubts.size(); ++i) text += (i ? "; " : ": ") + doubts[i];
-  object.rig.warnings.push_back(text);
-}
-
-// The skeleton of the mesh's own file, if it has one that can be read: what is wrong with it is no reason not to give it another.
-std::optional<Rig> previous_rig(const MeshObject& mesh) {
-  if (!mesh.document) return std::nullopt;
-  try {
-    return mesh.document->rig(mesh.primitives);
-  } catch (const Error&) {
-    return std::nullopt;
-  }
-}
-
-// Clips of the mesh's own file that move a skeleton which no mesh follows any more.
-std::vector<std::string> clips_of_former_skeleton(const MeshObject& mesh, const std::vector<Joint>& joints) {
-  const auto former = previous_rig(mesh);
-  std::vector<std::string> names;
-  if (!former || names_of(former->joints) == names_of(joints)) return names;  // rigged by this model before
-  try {
-    for (const Clip& clip : mesh.document->animations().clips)
-      if (moves_joint(clip, former->joints)) names.push_back(clip.name);
-  } catch (const Error&) {  // malformed ones stay as they are, too
-  }
-  return names;
-}
-
-// The joints of the mesh's own file that the new ones stand for.
-std::vector<ReplacedJoint> replaced_joints(const MeshObject& mesh, const std::vector<Joint>& joints) {
-  const auto former = previous_rig(mesh);
-  if (!former) return {};
-  const JointMatch match = match_joints(names_of(joints), names_of(former->joints));
-  std::vector<ReplacedJoint> result(joints.size());
-  for (size_t j = 0; j < joints.size(); ++j)
-    if (match.there[j] >= 0)
-      result[j] = {former->joints[match.there[j]].node, former->joints[match.there[j]].bind};
+// character: whose animations are taken; or null.
+CharacterParams checked(const focal_skeleton_params& params, const DetectionObject& detection,
+                        const MeshObject* character) {
+  check(params);
+  CharacterParams result;
+  result.by_template = template_of(params, *detection.model);
+  const size_t joints =
+      result.by_template ? result.by_template->joints.size() : detection.model->info.joint_names.size();
+  result.own_names = own_names(params, joints);
+  result.fixed = fixed_joints(params, joints);
+  result.symmetric = params.symmetric != 0;
+  result.influences = params.max_influences;
+  result.drop_helpers = params.drop_helpers != 0;
+  result.rest_pose = static_cast<RestPose>(params.rest_pose);
+  result.names = static_cast<BoneNames>(params.names);
+  result.ground_root = params.ground_root != 0;
+  result.file = detection.mesh->file.get();
+  if (!character) return result;
+  result.animations = &file_of(*character, "the character has no glTF file to take animations from");
+  result.scale = detection.mesh->mesh->scale / character->mesh->scale;
   return result;
 }
 
 // The mesh's own file with the skeleton, and with the landmarks where some were looked for.
 SourceFile with_skeleton(const SkeletonObject& object, const std::filesystem::path& path) {
-  SourceFile source = source_file(*object.mesh, path);
-  const std::vector<Joint>& joints = object.rig.rig.joints;
-  if (object.keeps_joints) {
-    source.document.replace_weights(source.primitives, object.rig.rig);
-  } else {
-    GltfRig rig{&object.rig.rig, object.rig.tip, {}, object.animations, &object.mesh->mesh->source};
-    rig.pose = object.shown_pose;
-    rig.replaces = replaced_joints(*object.mesh, joints);
-    source.document.add_skin(source.primitives, rig);
-  }
+  const TriangleMesh& mesh = object.mesh->mesh->source;
+  const SourceFile* const own = object.mesh->file.get();
+  SourceFile source = source_file(own, mesh, path);
+  if (object.keeps_joints)
+    source.document.replace_weights(source.primitives, object.character.rig.rig);
+  else
+    put_skeleton(object.character, mesh, own, source);
   if (object.detection) put_landmarks(*object.detection, source);
   return source;
+}
+
+constexpr double max_joints = 65536;
+
+[[noreturn]] void fail(uint64_t joint, const std::string& what, const std::string& hint) {
+  throw Error(Status::invalid_argument, "joint " + std::to_string(joint) + " " + what, hint);
+}
+
+Vector3 triple_at(const float* values, uint64_t joint) {
+  return Eigen::Map<const Eigen::Vector3f>(values + 3 * joint).cast<double>();
+}
+
+Joint joint_at(const focal_bind_params& params, uint64_t j) {
+  if (!params.joint_names[j] || !*params.joint_names[j]) fail(j, "has no name", "give every joint a name");
+  const int32_t parent = params.joint_parents[j];
+  if (parent < -1 || parent >= static_cast<int32_t>(j))
+    fail(j, "hangs on joint " + std::to_string(parent) + ", which does not come before it",
+         "list parents first; -1 stands for a root");
+  Joint joint{params.joint_names[j], parent};
+  const Vector3 place = triple_at(params.joint_positions, j);
+  if (!place.allFinite()) fail(j, "lies at no place", "pass finite positions");
+  joint.bind.topRightCorner<3, 1>() = place;
+  if (params.joint_rotations) {
+    Eigen::Quaterniond q(Eigen::Map<const Eigen::Vector4f>(params.joint_rotations + 4 * j).cast<double>());
+    if (!(q.coeffs().allFinite() && q.norm() > 1e-6)) fail(j, "is turned by no rotation", "pass quaternions");
+    joint.bind.topLeftCorner<3, 3>() = q.normalized().toRotationMatrix();
+  }
+  return joint;
+}
+
+OwnSkeleton given_skeleton(const focal_bind_params& params) {
+  check_range("focal_bind_params.joint_count", static_cast<double>(params.joint_count), 1, max_joints);
+  require(params.joint_parents, "focal_bind_params.joint_parents");
+  require(params.joint_positions, "focal_bind_params.joint_positions");
+  OwnSkeleton result;
+  for (uint64_t j = 0; j < params.joint_count; ++j) {
+    result.joints.push_back(joint_at(params, j));
+    result.moves.push_back(!params.joint_moves || params.joint_moves[j] != 0);
+    result.tip.emplace_back();
+    if (!params.joint_tips) continue;
+    if (const Vector3 tip = triple_at(params.joint_tips, j); tip.allFinite()) result.tip.back() = tip;
+  }
+  return result;
+}
+
+OwnSkeleton skeleton_in_file(const focal_bind_params& params, const MeshObject& mesh) {
+  if (params.joint_count > 0 || params.joint_parents || params.joint_positions || params.joint_rotations ||
+      params.joint_tips || params.joint_moves)
+    throw Error(Status::invalid_argument, "focal_bind_params.joint_names is NULL, other fields are not",
+                "give all joints, or none to take those of the mesh's own file");
+  const SourceFile& file =
+      file_of(mesh, "the mesh has no glTF file to take a skeleton from", "pass joints, or ");
+  const auto rig = file.document.rig(file.primitives);
+  if (!rig)
+    throw Error(Status::invalid_argument, "the mesh has no skin, hence no joints to keep",
+                "rig it with a model, or pass joints");
+  return own_skeleton_of(*rig);
 }
 
 focal_joint to_abi(const CharacterRig& rig, size_t index) {
@@ -213,7 +185,7 @@ focal_joint to_abi(const CharacterRig& rig, size_t index) {
   to.parent = from.parent;
   to.name = from.name.c_str();
   to.confidence = rig.confidence[index];
-  position_out(from.bind.topRightCorner<3, 1>(), to.position);
+  position_out(place_of(from), to.position);
   position_out(rig.tip[index], to.tip);
   const Eigen::Quaterniond q(Matrix3(from.bind.topLeftCorner<3, 3>()));
   for (int i = 0; i < 4; ++i) to.rotation[i] = static_cast<float>(q.coeffs()[i]);
@@ -221,23 +193,14 @@ focal_joint to_abi(const CharacterRig& rig, size_t index) {
 }
 
 }  // namespace
-}  // namespace focal
-
-using namespace focal;
-
-focal_status focal_skeleton_params_init(focal_skeleton_params* params, size_t struct_size) {
-  return guarded([&] { init_struct(params, struct_size); });
-}
 
 uint32_t focal_model_joint_count(const focal_model* model) {
-  return guarded_value<uint32_t>(
-      0, [&] { return static_cast<uint32_t>(resolve<ModelObject>(model)->info.joint_names.size()); });
+  return guarded_value<uint32_t>([&] { return resolve<ModelObject>(model)->info.joint_names.size(); });
 }
 
 const char* focal_model_joint_name(const focal_model* model, uint32_t index) {
-  return guarded_value<const char*>(nullptr, [&] {
-    return text_at(resolve<ModelObject>(model)->info.joint_names, index, "the model", "joints");
-  });
+  return guarded_value<const char*>(
+      [&] { return text_at(resolve<ModelObject>(model)->info.joint_names, index, "the model", "joints"); });
 }
 
 focal_status focal_skeleton_create(const focal_detection* detection, const focal_skeleton_params* params,
@@ -248,36 +211,34 @@ focal_status focal_skeleton_create(const focal_detection* detection, const focal
     object->detection = resolve<DetectionObject>(detection);
     object->mesh = object->detection->mesh, object->context = object->detection->model->context;
     const focal_skeleton_params how = read_struct(params);
-    check(how);
-    const auto by_hand = template_of(how, *object->detection->model);
-    const size_t joint_count =
-        by_hand ? by_hand->joints.size() : object->detection->model->info.joint_names.size();
-    check_names(how, joint_count);
-    const FixedJoints fixed = fixed_joints(how, joint_count);
     const auto character = how.animations ? resolve<MeshObject>(how.animations) : nullptr;
+    const CharacterParams wanted = checked(how, *object->detection, character.get());
     const TaskLease lease(task);
     const Execution execution = object->context->execution_with(lease.task());
-    execution.check_cancelled();
-    const Detection& found = object->detection->detection;
-    object->rig = by_hand ? rig_by_template(*by_hand, found, execution, how.max_influences, fixed)
-                          : transfer_rig(found, execution, how.symmetric != 0, how.max_influences, fixed);
-    // Before the joints are renamed: names identify pairs of joints, and those of the model.
-    const RigMeasures measures = rig_measures(found, object->rig);
-    if (!by_hand) calibrate_confidence(rig_quality(measures), fixed, object->rig);
-    const std::vector<size_t> numbers = kept_joints(how, object->rig);
-    if (how.rest_pose != FOCAL_POSE_OF_MESH) object->shown_pose = shown_pose(how.rest_pose, object->rig);
-    if (character)
-      object->animations = animations_for(object->rig, *object->mesh->mesh, *character, object->rig.warnings);
-    rename_joints(how, numbers, object->rig);
-    const auto idle = clips_of_former_skeleton(*object->mesh, object->rig.rig.joints);
-    if (!idle.empty())
-      object->rig.warnings.push_back(
-          "animations of the file move its former skeleton, which the mesh does not follow any more: " +
-          listed(idle) + "; --animations (animations) plays them on the new one");
-    set_verdict(*object, measures);
-    if (how.ground_root) put_root(how, *object);
-    object->context->report_warnings(object->rig.warnings);
-    *out_skeleton = publish(object);
+    object->character = make_character(object->detection->detection, wanted, execution);
+    object->context->report_warnings(object->character.rig.warnings);
+    *out_skeleton = publish(object, *object->context);
+  });
+}
+
+focal_status focal_skeleton_bind(const focal_context* context, const focal_mesh* mesh,
+                                 const focal_bind_params* params, focal_task* task,
+                                 focal_skeleton** out_skeleton) {
+  return guarded([&] {
+    require(out_skeleton, "out_skeleton");
+    const auto object = std::make_shared<SkeletonObject>();
+    object->context = resolve<ContextObject>(context);
+    object->mesh = resolve<MeshObject>(mesh);
+    const focal_bind_params how = read_struct(params);
+    check_range("focal_bind_params.max_influences", how.max_influences, 1, 2 * max_influences);
+    object->keeps_joints = !how.joint_names;
+    const OwnSkeleton skeleton =
+        object->keeps_joints ? skeleton_in_file(how, *object->mesh) : given_skeleton(how);
+    const TaskLease lease(task);
+    const Execution execution = object->context->execution_with(lease.task());
+    object->character.rig = weights_for(skeleton, object->mesh->mesh, how.max_influences, execution);
+    object->context->report_warnings(object->character.rig.warnings);
+    *out_skeleton = publish(object, *object->context);
   });
 }
 
@@ -285,45 +246,32 @@ focal_status focal_skeleton_destroy(focal_skeleton* skeleton) {
   return remove_handle(skeleton, HandleType::skeleton);
 }
 
-focal_status focal_skeleton_info_init(focal_skeleton_info* info, size_t struct_size) {
-  return guarded([&] { init_struct(info, struct_size); });
-}
-
 focal_status focal_skeleton_get_info(const focal_skeleton* skeleton, focal_skeleton_info* out_info) {
   return guarded([&] {
     const auto object = resolve<SkeletonObject>(skeleton);
-    const Rig& rig = object->rig.rig;
+    const Character& character = object->character;
+    const Rig& rig = character.rig.rig;
     focal_skeleton_info info{};
-    info.joint_count = static_cast<uint32_t>(object->rig.rig.joints.size());
-    info.warning_count = static_cast<uint32_t>(object->rig.warnings.size());
+    info.joint_count = static_cast<uint32_t>(rig.joints.size());
+    info.warning_count = static_cast<uint32_t>(character.rig.warnings.size());
     info.vertex_count = rig.influences.size();
-    info.quality = object->quality;
-    info.verdict = static_cast<focal_verdict>(object->verdict);
-    info.guessed_joints = object->guessed_joints;
+    info.quality = character.quality;
+    info.verdict = static_cast<focal_verdict>(character.verdict);
+    info.guessed_joints = character.guessed_joints;
     info.influences_per_vertex = (rig.more.empty() ? 1 : 2) * max_influences;
-    const auto count = [](const VertexInfluences& one) {
-      return std::count_if(one.begin(), one.end(), [](const Influence& i) { return i.weight > 0; });
-    };
-    for (size_t v = 0; v < rig.influences.size(); ++v) {
-      const auto used =
-          static_cast<uint32_t>(count(rig.influences[v]) + (rig.more.empty() ? 0 : count(rig.more[v])));
-      info.max_influences = std::max(info.max_influences, used);
-      info.unweighted_vertices += used == 0;
-    }
+    const InfluenceCount used = count_influences(rig);
+    info.max_influences = used.most;
+    info.unweighted_vertices = used.unweighted;
     write_result(out_info, info);
   });
-}
-
-focal_status focal_joint_init(focal_joint* joint, size_t struct_size) {
-  return guarded([&] { init_struct(joint, struct_size); });
 }
 
 focal_status focal_skeleton_get_joint(const focal_skeleton* skeleton, uint32_t index,
                                       focal_joint* out_joint) {
   return guarded([&] {
     const auto object = resolve<SkeletonObject>(skeleton);
-    check_index(index, object->rig.rig.joints.size(), "the skeleton", "joints");
-    write_result(out_joint, to_abi(object->rig, index));
+    check_index(index, object->character.rig.rig.joints.size(), "the skeleton", "joints");
+    write_result(out_joint, to_abi(object->character.rig, index));
   });
 }
 
@@ -333,7 +281,7 @@ focal_status focal_skeleton_weights(const focal_skeleton* skeleton, uint64_t ver
     require(out_joints, "out_joints");
     require(out_weights, "out_weights");
     const auto object = resolve<SkeletonObject>(skeleton);
-    const Rig& rig = object->rig.rig;
+    const Rig& rig = object->character.rig.rig;
     check_count("vertex_count", vertex_count, rig.influences.size(), "the mesh", "vertices");
     const auto put = [&](const Influence& one) {
       *out_joints++ = static_cast<uint32_t>(one.joint);
@@ -347,8 +295,9 @@ focal_status focal_skeleton_weights(const focal_skeleton* skeleton, uint64_t ver
 }
 
 const char* focal_skeleton_warning(const focal_skeleton* skeleton, uint32_t index) {
-  return guarded_value<const char*>(nullptr, [&] {
-    return text_at(resolve<SkeletonObject>(skeleton)->rig.warnings, index, "the skeleton", "warnings");
+  return guarded_value<const char*>([&] {
+    return text_at(resolve<SkeletonObject>(skeleton)->character.rig.warnings, index, "the skeleton",
+                   "warnings");
   });
 }
 
@@ -366,7 +315,7 @@ focal_status focal_skeleton_write_vrm(const focal_skeleton* skeleton, const char
     require(meta, "meta");
     const auto object = resolve<SkeletonObject>(skeleton);
     const auto file = path_of(path);
-    const auto& joints = object->rig.rig.joints;
+    const auto& joints = object->character.rig.rig.joints;
     SourceFile source = with_skeleton(*object, file);
     source.document.add_vrm(joints, bone_roles(joints), meta);
     object->context->report_warnings(write_document(source.document, file));

@@ -7,7 +7,10 @@
 #include <string>
 #include <type_traits>
 
+#include "arguments.h"
 #include "base/error.h"
+#include "boundary.h"
+#include "mesh/rig.h"
 
 namespace focal {
 
@@ -19,9 +22,31 @@ inline constexpr size_t kLargestStruct = 4096;
 template <class T>
 struct StructTraits;
 
+// At global scope, before the struct is read or written: its traits and the function that fills it with its defaults.
+#define FOCAL_STRUCT_WITH_DEFAULTS(type, size, make_defaults)               \
+  template <>                                                               \
+  struct focal::StructTraits<type> {                                        \
+    static constexpr const char* name = #type;                              \
+    static constexpr size_t first_size = size;                              \
+    static type defaults() { return make_defaults(); }                      \
+  };                                                                        \
+  focal_status type##_init(type* given, size_t struct_size) {               \
+    return focal::guarded([&] { focal::init_struct(given, struct_size); }); \
+  }                                                                         \
+  static_assert(std::is_trivially_copyable_v<type> && offsetof(type, struct_size) == 0)
+// One whose defaults are 0.
+#define FOCAL_STRUCT(type, size) FOCAL_STRUCT_WITH_DEFAULTS(type, size, type)
+
+// Of structs that are 0 but for this field.
+template <class T>
+T with_max_influences() {
+  T params{};
+  params.max_influences = max_influences;
+  return params;
+}
+
 template <class T>
 void check_struct_size(size_t size) {
-  static_assert(std::is_trivially_copyable_v<T> && offsetof(T, struct_size) == 0);
   if (size >= StructTraits<T>::first_size && size <= kLargestStruct) return;
   const std::string name = StructTraits<T>::name;
   throw Error(Status::invalid_argument,
@@ -82,10 +107,5 @@ void write_result(T* out, const T& value) {
   check_result(out);
   write_struct(out, out->struct_size, value);
 }
-
-// Throws invalid_argument unless low <= value <= high; NaN is outside.
-void check_range(const char* name, double value, double low, double high);
-void check_flag(const char* name, int32_t value);
-void check_reserved(const char* name, int64_t value);
 
 }  // namespace focal

@@ -1,7 +1,6 @@
-#include "task.h"
-
-#include "base/error.h"
+#include "arguments.h"
 #include "boundary.h"
+#include "objects.h"
 
 namespace focal {
 namespace {
@@ -55,13 +54,13 @@ focal_status focal_task_reset(focal_task* task) {
 }
 
 double focal_task_progress(const focal_task* task) {
-  return guarded_value(0.0, [&] { return resolve<TaskObject>(task)->task.progress(); });
+  return guarded_value<double>([&] { return resolve<TaskObject>(task)->task.progress(); });
 }
 
 const char* focal_task_stage(const focal_task* task) {
-  return guarded_value<const char*>(nullptr, [&] { return resolve<TaskObject>(task)->task.stage(); });
+  return guarded_value<const char*>([&] { return resolve<TaskObject>(task)->task.stage(); });
 }
 
 int32_t focal_task_is_cancelled(const focal_task* task) {
-  return guarded_value<int32_t>(0, [&] { return resolve<TaskObject>(task)->task.cancelled() ? 1 : 0; });
+  return guarded_value<int32_t>([&] { return resolve<TaskObject>(task)->task.cancelled(); });
 }

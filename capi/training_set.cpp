@@ -1,5 +1,4 @@
-#include "training_set.h"
-
+// The builder of what training starts from.
 #include <algorithm>
 #include <cstring>
 #include <string>
@@ -7,17 +6,13 @@
 #include <utility>
 
 #include "arguments.h"
-#include "base/error.h"
 #include "boundary.h"
-#include "gltf/document.h"
-#include "mesh.h"
-#include "skeleton/skeleton_template.h"
+#include "objects.h"
 #include "skeleton/teachers.h"
-#include "skeleton_template.h"
-#include "structs.h"
-#include "surface_points.h"
+#include "skeleton/template_file.h"
 
-namespace focal {
+using namespace focal;
+
 namespace {
 
 std::vector<std::string> checked_names(const char* const* names, uint64_t count) {
@@ -64,11 +59,9 @@ void add(focal_training_set* handle, const focal_mesh* mesh, const void* marks, 
 }
 
 RiggedMesh rigged(const MeshObject& mesh) {
-  if (!mesh.document)
-    throw Error(Status::invalid_argument, "the mesh has no glTF file to take a skeleton from",
-                "load it with focal_mesh_load_gltf and focal_mesh_params.keep_source_file 1");
+  const SourceFile& file = file_of(mesh, "the mesh has no glTF file to take a skeleton from");
   int64_t invalid_weights = 0;
-  auto rig = mesh.document->rig(mesh.primitives, &invalid_weights);
+  auto rig = file.document.rig(file.primitives, &invalid_weights);
   if (!rig)
     throw Error(Status::invalid_argument, "the mesh has no skin",
                 "add a rigged character, or mark landmarks on the mesh with focal_training_set_add");
@@ -80,9 +73,6 @@ RiggedMesh rigged(const MeshObject& mesh) {
 }
 
 }  // namespace
-}  // namespace focal
-
-using namespace focal;
 
 focal_status focal_training_set_create(const focal_context* context, const char* const* landmark_names,
                                        uint64_t landmark_count, focal_training_set** out_set) {
@@ -91,7 +81,7 @@ focal_status focal_training_set_create(const focal_context* context, const char*
     const auto object = std::make_shared<TrainingSetObject>();
     object->context = resolve<ContextObject>(context);
     object->set.landmark_names = checked_names(landmark_names, landmark_count);
-    *out_set = publish(object);
+    *out_set = publish(object, *object->context);
   });
 }
 
@@ -161,23 +151,21 @@ focal_status focal_training_set_check(focal_training_set* set) {
 }
 
 uint32_t focal_training_set_warning_count(const focal_training_set* set) {
-  return guarded_value<uint32_t>(
-      0, [&] { return static_cast<uint32_t>(resolve<TrainingSetObject>(set)->warnings.size()); });
+  return guarded_value<uint32_t>([&] { return resolve<TrainingSetObject>(set)->warnings.size(); });
 }
 
 const char* focal_training_set_warning(const focal_training_set* set, uint32_t index) {
-  return guarded_value<const char*>(nullptr, [&] {
+  return guarded_value<const char*>([&] {
     return text_at(resolve<TrainingSetObject>(set)->warnings, index, "the training set", "warnings");
   });
 }
 
 uint64_t focal_training_set_landmark_count(const focal_training_set* set) {
-  return guarded_value<uint64_t>(0,
-                                 [&] { return resolve<TrainingSetObject>(set)->set.landmark_names.size(); });
+  return guarded_value<uint64_t>([&] { return resolve<TrainingSetObject>(set)->set.landmark_names.size(); });
 }
 
 uint64_t focal_training_set_mesh_count(const focal_training_set* set) {
-  return guarded_value<uint64_t>(0, [&] {
+  return guarded_value<uint64_t>([&] {
     const auto object = resolve<TrainingSetObject>(set);
     return object->set.shapes.size() + object->characters.size();
   });

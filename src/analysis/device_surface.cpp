@@ -258,7 +258,7 @@ void DeviceDistance::solve_block(std::span<const Source> sources, float* out,
     return surface_->distances(padded, out);
   }
   const auto& on_cpu = on_cpu_.get([&] {
-    return std::make_unique<const HeatMethod>(mesh_->surface, operators_, execution, 1, keep_negative_heat_);
+    return std::make_unique<const HeatMethod>(mesh_->surface, operators_, execution, keep_negative_heat_);
   });
   on_cpu->solve_block(sources, out, execution);
 }

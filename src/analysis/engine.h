@@ -4,7 +4,6 @@
 #include <memory>
 #include <vector>
 
-#include "analysis/stage_seconds.h"
 #include "base/matrix.h"
 #include "base/parallel.h"
 #include "compute/backend.h"
@@ -13,6 +12,12 @@
 #include "spectrum/functional_map.h"
 
 namespace focal {
+
+// Seconds of wall time a stage; load, repair and proxy are filled by whoever does them.
+struct StageSeconds {
+  double load = 0, repair = 0, proxy = 0, spectrum = 0, descriptors = 0, geodesics = 0, forest = 0, vote = 0,
+         constellation = 0, refine = 0, total = 0;
+};
 
 struct SurfaceAnalysis;
 

@@ -150,6 +150,11 @@ void sync_folder(const fs::path& folder) {
 
 }  // namespace
 
+std::string text_of(const fs::path& path) {
+  const auto text = path.u8string();
+  return {text.begin(), text.end()};
+}
+
 std::vector<std::byte> read_file(const fs::path& path, int64_t size_limit) {
   require_plain_name(path);
   // O_NONBLOCK: opening a pipe without a writer returns at once, and read_all then refuses it.

@@ -4,11 +4,15 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace focal {
 
 inline constexpr int64_t default_file_limit = int64_t{4} << 30;  // bytes
+
+// UTF-8 on every platform.
+std::string text_of(const std::filesystem::path& path);
 
 // Reads the bytes of a regular file (links are followed). A pipe, device or folder is refused without
 // blocking. Throws file_not_found, invalid_file (not a regular file), unsupported (more than size_limit

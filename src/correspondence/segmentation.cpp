@@ -4,21 +4,14 @@
 #include <cmath>
 #include <limits>
 
-#include "base/error.h"
 #include "descriptors/si_hks.h"
+#include "landmarks/vote_maps.h"
 
 namespace focal {
 namespace {
 
 constexpr int32_t max_rounds = 50;
 constexpr double descriptor_share = 0.15;  // weight of SI-HKS relative to positions, each of unit spread
-
-const SurfaceAnalysis& analysis_of(const Detection& detection) {
-  if (!detection.analysis)
-    throw Error(Status::invalid_argument, "the detection keeps no analysis of the mesh",
-                "detect on the mesh itself");
-  return *detection.analysis;
-}
 
 // Position and SI-HKS of every vertex, each scaled to a mean squared length that is its weight.
 RowMatrix features_of(const SurfaceAnalysis& analysis, const Execution& execution) {
@@ -133,6 +126,18 @@ std::vector<int32_t> triangle_labels(const PreparedMesh& mesh,
     const auto label = [&](int i) { return source_vertex_labels[mesh.source.triangles(t, i)]; };
     result.push_back(label(1) == label(2) ? label(1) : label(0));
   }
+  return result;
+}
+
+ColouredMesh coloured(const TriangleMesh& mesh, const std::vector<int32_t>& triangle_labels) {
+  const auto count = static_cast<Eigen::Index>(mesh.triangle_count());
+  ColouredMesh result{{MatrixX3(3 * count, 3), MatrixX3i(count, 3)}, RowMatrixf(3 * count, 3)};
+  for (Eigen::Index t = 0; t < count; ++t)
+    for (int i = 0; i < 3; ++i) {
+      result.mesh.positions.row(3 * t + i) = mesh.positions.row(mesh.triangles(t, i));
+      result.mesh.triangles(t, i) = static_cast<int32_t>(3 * t + i);
+      result.colours.row(3 * t + i) = label_colour(triangle_labels[t]);
+    }
   return result;
 }
 

@@ -23,4 +23,11 @@ std::vector<int32_t> segment_geodesic(const Detection& detection, const Executio
 std::vector<int32_t> triangle_labels(const PreparedMesh& mesh,
                                      const std::vector<int32_t>& source_vertex_labels);
 
+// To look at: every triangle with corners of its own, so that colours end where parts do. Colours: see vote_maps.h.
+struct ColouredMesh {
+  TriangleMesh mesh;
+  RowMatrixf colours;  // vertices x 3
+};
+ColouredMesh coloured(const TriangleMesh& mesh, const std::vector<int32_t>& triangle_labels);
+
 }  // namespace focal

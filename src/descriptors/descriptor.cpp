@@ -23,4 +23,13 @@ std::span<const DescriptorKind> descriptor_kinds() {
   return all;
 }
 
+RowMatrix describe(const PreparedMesh& mesh, const DescriptorKind& kind, std::span<const int32_t> vertices,
+                   const Execution& execution) {
+  execution.begin_stage("spectrum", 0, 0.9);
+  const Operators operators = make_operators(mesh.surface, bridges_of(mesh));
+  const Eigenbasis basis = eigenbasis(operators.L, operators.mass, EigenParams{}, execution);
+  execution.begin_stage("descriptors", 0.9, 1);
+  return kind.describe({mesh.surface, operators, basis}, vertices, execution);
+}
+
 }  // namespace focal

@@ -6,7 +6,7 @@
 
 #include "base/matrix.h"
 #include "base/parallel.h"
-#include "mesh/triangle_mesh.h"
+#include "mesh/prepare.h"
 #include "operators/operators.h"
 #include "spectrum/eigenbasis.h"
 
@@ -54,5 +54,9 @@ RowMatrix describe_spectrally(const DescribedSurface& surface, std::span<const i
 // clang-format on
 
 std::span<const DescriptorKind> descriptor_kinds();
+
+// Of vertices of mesh.surface, with the basis that a fresh analysis of this surface has.
+RowMatrix describe(const PreparedMesh& mesh, const DescriptorKind& kind, std::span<const int32_t> vertices,
+                   const Execution& execution);
 
 }  // namespace focal

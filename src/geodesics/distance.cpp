@@ -97,4 +97,18 @@ std::span<const DistanceKind> distance_kinds() {
   return all;
 }
 
+std::vector<float> distances_on(const PreparedMesh& mesh, const DistanceKind& kind,
+                                const SurfacePoint& source, const Execution& execution) {
+  execution.begin_stage("distances", 0, 1);
+  const auto bridges = bridges_of(mesh);
+  const Operators operators = make_operators(mesh.surface, bridges);
+  const auto distance = kind.make({mesh.surface, bridges, operators, true}, execution);
+  const RowMatrixf row = distance->distances(std::span(&source, 1), execution);
+  std::vector<float> result(mesh.surface_vertex.size(), std::numeric_limits<float>::infinity());
+  const auto unit = static_cast<float>(kind.is_length ? mesh.scale : 1);
+  for (size_t v = 0; v < result.size(); ++v)
+    if (mesh.surface_vertex[v] >= 0) result[v] = unit * row(0, mesh.surface_vertex[v]);
+  return result;
+}
+
 }  // namespace focal

@@ -9,7 +9,7 @@
 
 #include "base/parallel.h"
 #include "linear/sparse_cholesky.h"
-#include "mesh/triangle_mesh.h"
+#include "mesh/prepare.h"
 #include "operators/operators.h"
 
 namespace focal {
@@ -95,5 +95,9 @@ struct DistanceKind {
 // clang-format on
 
 std::span<const DistanceKind> distance_kinds();
+
+// From a point of mesh.surface to every vertex of mesh.source, lengths in its units; infinite where no triangle uses the vertex.
+std::vector<float> distances_on(const PreparedMesh& mesh, const DistanceKind& kind,
+                                const SurfacePoint& source, const Execution& execution);
 
 }  // namespace focal

@@ -71,14 +71,13 @@ FOCAL_MULTIVERSION(void add_faces_signed(const Faces& faces, const double* heat,
 }  // namespace
 
 HeatMethod::HeatMethod(const TriangleMesh& mesh, const Operators& operators, const Execution& execution,
-                       double time_factor, bool keep_negative_heat,
-                       std::span<const std::pair<int32_t, int32_t>> bridges)
+                       bool keep_negative_heat, std::span<const std::pair<int32_t, int32_t>> bridges)
     : Distance(mesh), keep_negative_heat_(keep_negative_heat) {
   execution.check_cancelled();
   const auto symbolic = std::make_shared<const SymbolicFactor>(analyse_pattern(operators.L, {}, execution));
   parallel_for(execution, 2, [&](int64_t part) {
     if (part == 0) {
-      time_ = heat_time(mesh, operators, time_factor);
+      time_ = heat_time(mesh, operators);
       distance_bound_ = time_.distance_bound;
       heat_ = SparseCholesky(plus_diagonal(time_.t * operators.L, operators.mass), symbolic, execution);
     } else {
@@ -108,8 +107,8 @@ void HeatMethod::add_bridges(const double* heat, float* rhs) const {
     }
 }
 
-HeatTime heat_time(const TriangleMesh& mesh, const Operators& operators, double time_factor) {
-  const double step = std::sqrt(time_factor) * operators.mean_edge;
+HeatTime heat_time(const TriangleMesh& mesh, const Operators& operators) {
+  const double step = operators.mean_edge;
   const double bound = diameter_bound(mesh, operators.L), smallest = bound / representable_decay;
   return {std::pow(std::max(step, smallest), 2), bound, smallest > step};
 }
@@ -181,7 +180,7 @@ void HeatMethod::solve_block(std::span<const Source> sources, float* out, const 
 DistanceKind heat_distance() {
   return {"heat", true, true,
           [](const MeasuredSurface& surface, const Execution& execution) -> std::shared_ptr<const Distance> {
-            return std::make_shared<HeatMethod>(surface.mesh, surface.operators, execution, 1,
+            return std::make_shared<HeatMethod>(surface.mesh, surface.operators, execution,
                                                 surface.paper_exact, surface.bridges);
           }};
 }

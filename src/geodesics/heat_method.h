@@ -4,8 +4,7 @@
 
 namespace focal {
 
-// t = time_factor * mean edge length squared, raised on meshes so large that heat would underflow at the
-// farthest point.
+// t = mean edge length squared, raised on meshes so large that heat would underflow at the farthest point.
 struct HeatTime {
   double t, distance_bound;  // see Distance
   bool raised;
@@ -14,7 +13,7 @@ struct HeatTime {
     return raised ? "the mesh is so fine that the time step of the heat method was raised" : nullptr;
   }
 };
-HeatTime heat_time(const TriangleMesh& mesh, const Operators& operators, double time_factor = 1);
+HeatTime heat_time(const TriangleMesh& mesh, const Operators& operators);
 
 // Two factorisations, computed once.
 class HeatMethod final : public Distance {
@@ -26,11 +25,9 @@ class HeatMethod final : public Distance {
   // which is more accurate (lion set, 18 % of such weights: 10 instead of 16 % of the diameter off the exact
   // distance).
   HeatMethod(const TriangleMesh& mesh, const Operators& operators, const Execution& execution = {},
-             double time_factor = 1, bool keep_negative_heat = false,
-             std::span<const std::pair<int32_t, int32_t>> bridges = {});
+             bool keep_negative_heat = false, std::span<const std::pair<int32_t, int32_t>> bridges = {});
 
   double time() const { return time_.t; }
-  bool time_was_raised() const { return time_.raised; }
   const char* warning() const override { return time_.warning(); }
   std::shared_ptr<const SymbolicFactor> symbolic() const override { return heat_.symbolic(); }
   void solve_block(std::span<const Source> sources, float* out, const Execution& execution) const override;

@@ -102,4 +102,23 @@ GltfAnimations GltfDocument::animations() const {
   return result;
 }
 
+void pose(const GltfDocument& document, const std::string& animation, double time, GltfMesh& gltf) {
+  const auto rig = document.rig(gltf.primitives);
+  const GltfAnimations found = document.animations();
+  std::string names;
+  for (const Clip& one : found.clips) {
+    names += (names.empty() ? "'" : ", '") + one.name + "'";
+    if (!rig || one.name != animation) continue;
+    const std::vector<Matrix4> world = world_transforms(found.tree, &one, time);
+    std::vector<Matrix4> transforms;
+    for (const Joint& joint : rig->joints) transforms.push_back(world[joint.node] * joint.bind.inverse());
+    gltf.mesh.positions = skinned(gltf.mesh.positions, rig->influences, transforms);
+    return;
+  }
+  std::string hint = "it has no skin that an animation could move";
+  if (rig) hint = names.empty() ? "it has no animations" : "it has: " + names;
+  throw Error(Status::invalid_argument, "the file has no animation '" + animation + "' of a skinned mesh",
+              hint);
+}
+
 }  // namespace focal

@@ -177,6 +177,10 @@ class GltfDocument {
   std::unique_ptr<Edited> edited_;
 };
 
+// Poses the skinned parts of document.mesh() as the animation has them `time` seconds after its start. Throws
+// invalid_argument: the file has no such animation, or no skin.
+void pose(const GltfDocument& document, const std::string& animation, double time, GltfMesh& gltf);
+
 // Creates a GLB: one mesh with smooth normals, and colours if given (vertices x 3, linear, 0..1, clamped) as
 // COLOR_0. Throws invalid_mesh (no triangles, a position that is not finite in float), invalid_argument
 // (colour rows).

@@ -1,6 +1,7 @@
 #include "landmarks/detect.h"
 
 #include <algorithm>
+#include <mutex>
 
 #include "analysis/device_engine.h"
 #include "analysis/surface_analysis.h"
@@ -140,6 +141,13 @@ Detection detect_afresh(const std::shared_ptr<const LandmarkModel>& model,
 
 }  // namespace
 
+const SurfaceAnalysis& analysis_of(const Detection& detection) {
+  if (!detection.analysis)
+    throw Error(Status::invalid_argument, "the detection keeps no analysis of the mesh",
+                "detect on the mesh itself");
+  return *detection.analysis;
+}
+
 void check_suits(const SurfaceAnalysis& analysis, const LandmarkModel& model) {
   if (!suits(analysis.params, analysis_params_of(model.params)))
     throw Error(Status::invalid_argument, "the analysis was made with other parameters than this model's",
@@ -239,6 +247,27 @@ Detection detect(std::shared_ptr<const LandmarkModel> model, const SurfaceAnalys
   result.mesh = analysis.proxy.full;
   result.seconds.total = whole.lap();
   return result;
+}
+
+std::vector<Detection> detect_each(const std::shared_ptr<const LandmarkModel>& model,
+                                   const std::vector<std::shared_ptr<const PreparedMesh>>& meshes,
+                                   const DetectParams& params, const Execution& execution) {
+  std::vector<Detection> found(meshes.size());
+  std::mutex reporting;
+  size_t done = 0;
+  execution.begin_stage("detections", 0, 1);
+  parallel_for(execution, static_cast<int64_t>(meshes.size()), [&](int64_t i) {
+    Execution inner = execution.inner();
+    inner.backend = execution.backend;
+    try {
+      found[i] = detect(model, meshes[i], params, inner);
+    } catch (const Error& error) {
+      throw Error(error.status(), "mesh " + std::to_string(i) + ": " + error.what(), error.hint());
+    }
+    const std::scoped_lock lock(reporting);
+    execution.report(static_cast<double>(++done) / static_cast<double>(meshes.size()));
+  });
+  return found;
 }
 
 }  // namespace focal

@@ -55,6 +55,9 @@ struct Detection {
 std::vector<int32_t> placed_landmarks(const Detection& detection);
 std::vector<SurfacePoint> places_of(const Detection& detection, const std::vector<int32_t>& landmarks);
 
+// Throws invalid_argument when the detection keeps none.
+const SurfaceAnalysis& analysis_of(const Detection& detection);
+
 Detection detect(std::shared_ptr<const LandmarkModel> model, std::shared_ptr<const PreparedMesh> mesh,
                  const DetectParams& params, const Execution& execution);
 
@@ -71,5 +74,10 @@ SurfaceAnalysis analyse_to_keep(const TrainParams& trained, std::shared_ptr<cons
                                 const DetectParams& params, const Execution& execution, std::string& note);
 Detection detect(std::shared_ptr<const LandmarkModel> model, const SurfaceAnalysis& analysis,
                  const DetectParams& params, const Execution& execution);
+
+// On each mesh, one thread a mesh. An error names the mesh by its number.
+std::vector<Detection> detect_each(const std::shared_ptr<const LandmarkModel>& model,
+                                   const std::vector<std::shared_ptr<const PreparedMesh>>& meshes,
+                                   const DetectParams& params, const Execution& execution);
 
 }  // namespace focal

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "model/exemplar_section.h"
+#include "model/sections.h"
 
 namespace focal {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "landmarks/embedded_surface.h"
 #include "mesh/nearest_vertex.h"
-#include "model/exemplar_section.h"
+#include "model/sections.h"
 
 namespace focal {
 namespace {

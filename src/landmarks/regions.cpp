@@ -11,7 +11,7 @@ DistanceFields::DistanceFields(Proxy proxy, const Execution& execution) : proxy_
   const PreparedMesh& coarse = *proxy_.coarse;
   const auto bridges = bridges_of(coarse);
   heat_ =
-      HeatMethod(coarse.surface, make_operators(coarse.surface, bridges, true), execution, 1, false, bridges);
+      HeatMethod(coarse.surface, make_operators(coarse.surface, bridges, true), execution, false, bridges);
   places_ = coarse_place_of_vertices(proxy_, execution);
 }
 

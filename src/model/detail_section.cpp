@@ -1,9 +1,8 @@
-#include "model/detail_section.h"
-
 #include <algorithm>
 
 #include "base/error.h"
 #include "model/model_file.h"
+#include "model/sections.h"
 
 namespace focal {
 namespace {

@@ -1,9 +1,8 @@
-#include "model/exemplar_section.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "descriptors/bulge.h"
+#include "model/sections.h"
 
 namespace focal {
 namespace {

@@ -1,9 +1,8 @@
-#include "model/feature_section.h"
-
 #include <limits>
 
 #include "model/feature_layout.h"
 #include "model/forest_file.h"
+#include "model/sections.h"
 
 namespace focal {
 

@@ -8,12 +8,10 @@
 #include "base/archive.h"
 #include "base/error.h"
 #include "descriptors/descriptor.h"
-#include "model/detail_section.h"
-#include "model/exemplar_section.h"
 #include "model/feature_layout.h"
-#include "model/feature_section.h"
 #include "model/forest_file.h"
 #include "model/method_section.h"
+#include "model/sections.h"
 
 namespace focal {
 namespace {

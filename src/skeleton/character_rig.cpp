@@ -11,6 +11,12 @@ constexpr float min_weight = 0.02f;  // lighter influences are dropped
 
 }  // namespace
 
+std::vector<std::string> names_of(const std::vector<Joint>& joints) {
+  std::vector<std::string> names;
+  for (const Joint& joint : joints) names.push_back(joint.name);
+  return names;
+}
+
 std::vector<int32_t> other_sides(const std::vector<Joint>& joints) {
   std::vector<int32_t> result;
   for (const Joint& joint : joints) {
@@ -90,7 +96,7 @@ void put_influences_on_source(const RowMatrixf& weights, const SurfaceAnalysis& 
 void make_bones_symmetric(CharacterRig& character) {
   auto& joints = character.rig.joints;
   const std::vector<int32_t> other = other_sides(joints);
-  const auto place = [&](size_t j) -> Vector3 { return joints[j].bind.topRightCorner<3, 1>(); };
+  const auto place = [&](size_t j) { return place_of(joints[j]); };
   std::vector<double> length(joints.size(), 0);  // before the change
   for (size_t j = 0; j < joints.size(); ++j)
     if (joints[j].parent >= 0) length[j] = (place(j) - place(static_cast<size_t>(joints[j].parent))).norm();

@@ -28,6 +28,9 @@ struct CharacterRig {
   std::vector<std::string> warnings;
 };
 
+inline Vector3 place_of(const Joint& joint) { return joint.bind.topRightCorner<3, 1>(); }
+std::vector<std::string> names_of(const std::vector<Joint>& joints);
+
 // For each joint the sum of the directions to its children, or to its tip without children. parent: -1: a
 // root.
 std::vector<Vector3> bone_directions(const std::vector<int32_t>& parent, const std::vector<Vector3>& place,

@@ -130,4 +130,10 @@ JointMatch match_joints(const std::vector<std::string>& wanted, const std::vecto
   return match;
 }
 
+std::string quoted(const std::vector<std::string>& names, size_t most) {
+  std::string text;
+  for (size_t i = 0; i < std::min(names.size(), most); ++i) text += (i ? ", '" : "'") + names[i] + "'";
+  return text;
+}
+
 }  // namespace focal

@@ -24,4 +24,7 @@ struct JointMatch {
 // in order. No name is matched twice.
 JointMatch match_joints(const std::vector<std::string>& wanted, const std::vector<std::string>& names);
 
+// "'a', 'b', 'c'": the first of them, for messages.
+std::string quoted(const std::vector<std::string>& names, size_t most);
+
 }  // namespace focal

@@ -17,8 +17,6 @@ constexpr double short_of_skin = 0.9;
 constexpr float hardness = 1.5F;  // exponent of the weights
 constexpr double heat_strength = 4;
 
-Vector3 place_of(const Joint& joint) { return joint.bind.topRightCorner<3, 1>(); }
-
 // Joints that move vertices, and their ancestors.
 std::vector<char> leads_to_moving(const OwnSkeleton& skeleton) {
   std::vector<char> result = skeleton.moves;

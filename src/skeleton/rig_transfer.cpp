@@ -44,10 +44,7 @@ std::vector<ShapeMap> maps_of(const Detection& detection, const Execution& execu
   if (model.skeleton.empty())
     throw Error(Status::invalid_argument, "the model was not learned from rigged characters",
                 "train one with --rigs, or focal_training_set_add_rig");
-  if (!detection.analysis)
-    throw Error(Status::invalid_argument, "the detection keeps no analysis of the mesh",
-                "detect on the mesh itself");
-  const SurfaceAnalysis& analysis = *detection.analysis;
+  const SurfaceAnalysis& analysis = analysis_of(detection);
   std::vector<ShapeMap> maps = detection.maps;
   if (maps.empty()) {
     const std::vector<int32_t> landmark = placed_landmarks(detection);

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "gltf/output_file.h"
 #include "mesh/closest_point.h"
 #include "mesh/similarity.h"
 #include "skeleton/rig_landmarks.h"
@@ -94,7 +95,7 @@ ShapeRig shape_rig(const RiggedMesh& character, const std::vector<SkeletonJoint>
 // The character's outer shell with the skin of the nearest triangles, in the caller's coordinates.
 RiggedMesh wrapped(const RiggedMesh& character, const Execution& execution) {
   const PreparedMesh& mesh = *character.mesh;
-  TriangleMesh shell = focal::wrapped(mesh, execution).source;
+  const TriangleMesh shell = focal::wrapped(mesh, execution).source;
   std::vector<SurfaceQuery> queries;
   for (int32_t v = 0; v < shell.vertex_count(); ++v)
     queries.push_back({shell.positions.row(v).transpose(), Vector3::Zero()});
@@ -110,9 +111,9 @@ RiggedMesh wrapped(const RiggedMesh& character, const Execution& execution) {
       }
     result.rig.influences.push_back(heaviest(influences));
   }
-  shell.positions = (mesh.scale * shell.positions).rowwise() + mesh.centre.transpose();
-  result.mesh = std::make_shared<const PreparedMesh>(prepare(
-      std::move(shell), {.analysed = AnalysedSurface::as_it_is, .repair_orientation = false}, execution));
+  result.mesh = std::make_shared<const PreparedMesh>(
+      prepare(in_source_coordinates(shell, mesh),
+              {.analysed = AnalysedSurface::as_it_is, .repair_orientation = false}, execution));
   return result;
 }
 

@@ -211,8 +211,6 @@ void Placer::place(CharacterRig& character) {
   }
 }
 
-Vector3 place_of(const Joint& joint) { return joint.bind.topRightCorner<3, 1>(); }
-
 // A joint's bones lead to its children; the last of a chain to its tip, or towards the skin in the direction
 // of the chain.
 std::vector<Bone> Placer::bones(const std::vector<Joint>& joints) const {
@@ -288,10 +286,7 @@ void check_template(const SkeletonTemplate& skeleton, const std::vector<std::str
 
 CharacterRig rig_by_template(const SkeletonTemplate& skeleton, const Detection& detection,
                              const Execution& execution, int32_t influences, const FixedJoints& fixed) {
-  if (!detection.analysis)
-    throw Error(Status::invalid_argument, "the detection keeps no analysis of the mesh",
-                "detect on the mesh itself");
-  const SurfaceAnalysis& analysis = *detection.analysis;
+  const SurfaceAnalysis& analysis = analysis_of(detection);
   execution.begin_stage("joints", 0, 0.3);
   CharacterRig result;
   Placer placer(skeleton, detection);

@@ -22,9 +22,7 @@ constexpr size_t max_numbered = 12;   // maximum number of characters in one sen
 using Names = std::vector<std::string>;
 
 std::string listed(const Names& names) {
-  std::string text;
-  for (size_t i = 0; i < std::min(names.size(), most_named); ++i) text += (i ? ", '" : "'") + names[i] + "'";
-  return text + (names.size() > most_named ? ", ..." : "");
+  return quoted(names, most_named) + (names.size() > most_named ? ", ..." : "");
 }
 
 std::string number_text(const std::vector<RiggedMesh>& characters, size_t index) {

@@ -8,7 +8,7 @@
 #include "command_error.h"
 #include "fuzz.h"
 #include "landmark_files.h"
-#include "skeleton_template.h"
+#include "skeleton/template_file.h"
 
 namespace {
 

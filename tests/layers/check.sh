@@ -41,9 +41,9 @@ BEGIN {
   allow("paper", "analysis")
   allow("landmarks", "analysis paper augmentation")
   allow("correspondence", "landmarks")
-  allow("skeleton", "landmarks")
+  allow("skeleton", "landmarks gltf")
   rooms["include"] = 1; allowed["include", "include"] = 1
-  allow("capi", "gltf correspondence skeleton include")
+  allow("capi", "correspondence skeleton include")
   rooms["bindings"] = rooms["samples"] = rooms["cuda"] = 1
   allowed["bindings", "bindings"] = allowed["bindings", "include"] = 1
   allowed["samples", "samples"] = allowed["samples", "include"] = 1

@@ -32,7 +32,7 @@ void write_stages(const TriangleMesh& mesh, const std::filesystem::path& folder,
   write_raw(folder / "si_hks", si_hks(basis, operators.area, all));
 
   const RowMatrix distances =
-      HeatMethod(mesh, operators, execution, 1, true).distances(sources, execution).cast<double>();
+      HeatMethod(mesh, operators, execution, true).distances(sources, execution).cast<double>();
   write_raw(folder / "heat", distances);
   const auto exact = distance_kinds()[1].make({mesh, {}, operators}, execution);
   write_raw(folder / "own_exact",

@@ -40,8 +40,6 @@ std::vector<Joint> deforming(const Rig& rig) {
   return result;
 }
 
-Vector3 place_of(const Joint& joint) { return joint.bind.topRightCorner<3, 1>(); }
-
 void judge(const std::shared_ptr<const LandmarkModel>& model, const std::string& file) {
   const RiggedMesh truth = focal_test::read_rig(file);
   Stopwatch watch;

@@ -8,8 +8,8 @@
 
 #include "base/archive.h"
 #include "base/error.h"
-#include "model/detail_section.h"
 #include "model/model_file.h"
+#include "model/sections.h"
 #include "skeleton/detail_region.h"
 #include "skeleton/detail_training.h"
 #include "skeleton/rig_transfer.h"

@@ -1,7 +1,7 @@
 // A root on the ground comes first and above all; nothing else changes.
-#include "skeleton/ground_root.h"
-
 #include <doctest/doctest.h>
+
+#include "skeleton/rig_edits.h"
 
 using namespace focal;
 

@@ -1,7 +1,7 @@
 // Twist bones and helpers are recognised by their names, and the joints above stand for them.
-#include "skeleton/helper_bones.h"
-
 #include <doctest/doctest.h>
+
+#include "skeleton/rig_edits.h"
 
 using namespace focal;
 

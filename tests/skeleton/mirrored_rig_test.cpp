@@ -10,8 +10,6 @@ using namespace focal;
 
 namespace {
 
-Vector3 place_of(const Joint& joint) { return joint.bind.topRightCorner<3, 1>(); }
-
 // Pairs of vertices about the plane, some in it, and a lopsided rig for them: joints that lie up to 0.02 off, random weights.
 struct Lopsided {
   explicit Lopsided(const MirrorPlane& plane, int pairs = 200, uint32_t seed = 1) : random(seed) {

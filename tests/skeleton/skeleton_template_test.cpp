@@ -13,8 +13,6 @@ using namespace focal_test;
 
 namespace {
 
-Vector3 joint_place(const Joint& joint) { return joint.bind.topRightCorner<3, 1>(); }
-
 const Detection& detection() {
   static const Detection one = [] {
     const creatures::Character other = humanoid(11);
@@ -56,10 +54,10 @@ TEST_CASE("joints lie in the middle of the limbs, weights sum to one") {
                                             : detection().mesh->source.positions.col(1).maxCoeff() -
                                                   detection().mesh->source.positions.col(1).minCoeff();
   for (const Joint& joint : found.rig.joints) {
-    CHECK(winding_number(detection().mesh->source, joint_place(joint)) > 0.5);
+    CHECK(winding_number(detection().mesh->source, place_of(joint)) > 0.5);
     for (size_t t = 0; t < truth.skeleton.joints.size(); ++t)
       if (truth.skeleton.joints[t].name == joint.name)
-        CHECK((joint_place(joint) - truth.pose[t] * truth.skeleton.joints[t].rest).norm() < 0.04 * height);
+        CHECK((place_of(joint) - truth.pose[t] * truth.skeleton.joints[t].rest).norm() < 0.04 * height);
   }
   for (const VertexInfluences& one : found.rig.influences) {
     float sum = 0;
@@ -76,7 +74,7 @@ TEST_CASE("a joint's y axis points along its bone; a rest pose turns it to where
     const Matrix3 turn = found.rig.joints[j].bind.topLeftCorner<3, 3>();
     CHECK((turn.transpose() * turn - Matrix3::Identity()).norm() < 1e-9);
   }
-  const Vector3 bone = (found.tip[1] - joint_place(found.rig.joints[1])).normalized();
+  const Vector3 bone = (found.tip[1] - place_of(found.rig.joints[1])).normalized();
   CHECK(found.rig.joints[1].bind.col(1).head<3>().dot(bone) == doctest::Approx(1));
   REQUIRE(found.rest.size() == found.rig.joints.size());
   CHECK((found.rest[1].col(1).head<3>() - Vector3(-1, 0, 0)).norm() < 1e-9);
@@ -87,7 +85,7 @@ TEST_CASE("both sides get bones of one length where the template is symmetric") 
   skeleton.symmetric = true;
   const CharacterRig found = rig_by_template(skeleton, detection(), execution);
   const auto length = [&](size_t j) {
-    return (joint_place(found.rig.joints[j]) - joint_place(found.rig.joints[0])).norm();
+    return (place_of(found.rig.joints[j]) - place_of(found.rig.joints[0])).norm();
   };
   CHECK(found.rig.joints[1].name == "leftLowerLeg");
   CHECK(found.rig.joints[3].name == "rightLowerLeg");
@@ -102,7 +100,7 @@ TEST_CASE("a joint whose landmarks are absent lies at its parent, and that is to
   const CharacterRig found = rig_by_template(limbs(), partly, execution);
   REQUIRE(found.warnings.size() == 1);
   CHECK(found.warnings[0].find("'leftFoot'") != std::string::npos);
-  CHECK((joint_place(found.rig.joints[2]) - joint_place(found.rig.joints[0])).norm() == 0);
+  CHECK((place_of(found.rig.joints[2]) - place_of(found.rig.joints[0])).norm() == 0);
   CHECK(found.confidence[2] == 0);
   for (SurfacePoint& place : partly.places) place.triangle = -1;
   CHECK_THROWS_AS(rig_by_template(limbs(), partly, execution), Error);

@@ -1,11 +1,11 @@
 // T and A poses: the angle of the arms, and what hangs on them.
-#include "skeleton/stretched_arms.h"
-
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
+
+#include "skeleton/rig_edits.h"
 
 using namespace focal;
 

@@ -1,9 +1,8 @@
-#include "output_file.h"
+#include "gltf/output_file.h"
 
 #include <algorithm>
 #include <cctype>
 
-#include "arguments.h"
 #include "base/atomic_file.h"
 #include "base/error.h"
 
@@ -51,13 +50,13 @@ void check_suffix(const fs::path& path, bool is_binary) {
                 std::string("choose a path that ends in ") + wanted);
 }
 
-SourceFile source_file(const MeshObject& mesh, const fs::path& path) {
+SourceFile source_file(const SourceFile* file, const TriangleMesh& mesh, const fs::path& path) {
   const auto plain = [&] {
-    GltfDocument document(write_glb(mesh.mesh->source));
+    GltfDocument document(write_glb(mesh));
     auto primitives = document.mesh().primitives;
     return SourceFile{std::move(document), std::move(primitives)};
   };
-  SourceFile source = mesh.document ? SourceFile{*mesh.document, mesh.primitives} : plain();
+  SourceFile source = file ? *file : plain();
   check_suffix(path, source.document.is_binary());
   return source;
 }
@@ -83,6 +82,11 @@ std::vector<std::string> write_document(const GltfDocument& document, const fs::
   }
   write_file_atomically(path, document.bytes());
   return warnings;
+}
+
+TriangleMesh in_source_coordinates(TriangleMesh part, const PreparedMesh& mesh) {
+  part.positions = (mesh.scale * part.positions).rowwise() + mesh.centre.transpose();
+  return part;
 }
 
 }  // namespace focal

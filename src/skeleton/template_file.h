@@ -1,5 +1,8 @@
-// Skeleton templates as the caller writes them: JSON.
+// Skeleton templates as people write them: JSON.
 #pragma once
+#include <string>
+#include <vector>
+
 #include "skeleton/skeleton_template.h"
 
 namespace focal {
@@ -8,5 +11,8 @@ namespace focal {
 // "surface": [...], "between": [a, b] with "share"; "tip"; "rest": [x, y, z]}]}. Throws invalid_file (no JSON), unsupported
 // (limits, another version), invalid_argument (not of this form).
 SkeletonTemplate parse_skeleton_template(const char* text);
+
+// The one that a model file carries over its landmarks. Throws invalid_file: a damaged file can hold one that is none.
+SkeletonTemplate template_of_model(const std::string& text, const std::vector<std::string>& landmarks);
 
 }  // namespace focal
