@@ -55,7 +55,7 @@ void set_out_of_memory() noexcept {
   char hint[200];
   std::snprintf(hint, sizeof hint,
                 "raise focal_context_params.memory_budget_bytes to well over %" PRId64
-                " MB, destroy what is no longer needed, or use a mesh with fewer vertices",
+                " MB, destroy handles that you do not need, or use a mesh with fewer vertices",
                 megabytes(budget->held + asked));
   set_last_error(message, hint);
 }

@@ -70,11 +70,11 @@ struct MeshObject : HandleObject<focal_mesh, HandleType::mesh> {
   double load_seconds = 0, repair_seconds = 0;
   std::vector<std::string> warnings;       // of reading, then of preparing
   std::string name;                        // of the file it came from, for messages; or none
-  std::shared_ptr<const SourceFile> file;  // the caller's glTF; null when there is none or it was not kept
+  std::shared_ptr<const SourceFile> file;  // the caller's glTF; null if it has none or did not keep it
   std::vector<LeftOut> left_out;
   std::vector<MeshPart> parts;
 };
-// Throws invalid_argument where there is none: "the mesh has no glTF file to take a skeleton from".
+// Throws invalid_argument if it has none: "the mesh has no glTF file to take a skeleton from".
 const SourceFile& file_of(const MeshObject& mesh, const char* missing, const std::string& way_out = "");
 
 // What training starts from.

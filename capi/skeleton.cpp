@@ -49,13 +49,13 @@ void check(const focal_skeleton_params& params) {
   check_range("focal_skeleton_params.max_influences", params.max_influences, 1, 2 * max_influences);
 }
 
-// The caller's, else the one that the model carries; nothing: rigged characters taught it.
+// The caller's, else the one that the model carries; nothing: its skeleton is that of rigged characters.
 std::optional<SkeletonTemplate> template_of(const focal_skeleton_params& params, const ModelObject& model) {
   std::optional<SkeletonTemplate> result = model.by_template;
   if (params.skeleton_template) result = parse_skeleton_template(params.skeleton_template);
   if (result && params.animations)
     throw Error(Status::invalid_argument, "animations were asked for together with a template",
-                "they need the joints of the characters that taught the model; leave one of the two out");
+                "they need the joints of the training characters of the model; leave one of the two out");
   if (result) result->symmetric |= params.symmetric != 0;
   return result;
 }

@@ -130,7 +130,7 @@ focal_status focal_training_set_set_skeleton(focal_training_set* set, const char
           "a model of rigged characters has their skeleton; templates are for landmarks marked by hand");
     if (skeleton_template && std::strlen(skeleton_template) > longest_template)
       throw Error(Status::unsupported, "the skeleton template is longer than 1 MiB",
-                  "leave out what is no joint");
+                  "leave out nodes that are not joints");
     if (skeleton_template)
       check_template(parse_skeleton_template(skeleton_template), object->set.landmark_names);
     object->set.skeleton_template = skeleton_template ? skeleton_template : "";

@@ -18,7 +18,7 @@ struct SourceFile {
   GltfDocument document;
   std::vector<GltfPrimitive> primitives;
 };
-// A copy of the file, or a plain .glb of the mesh where there is none (null). Throws invalid_argument when the path promises the other
+// A copy of the file, or a plain .glb of the mesh if it is null. Throws invalid_argument when the path promises the other
 // kind of file.
 SourceFile source_file(const SourceFile* file, const TriangleMesh& mesh, const std::filesystem::path& path);
 

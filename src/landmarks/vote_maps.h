@@ -8,7 +8,7 @@ namespace focal {
 // votes.
 RowMatrixf full_votes(const Detection& detection, const Execution& execution);
 
-// The hue of one landmark or part; neighbouring numbers get distant hues. Grey where there is none (-1).
+// The hue of one landmark or part; neighbouring numbers get distant hues. Grey for -1.
 Eigen::RowVector3f label_colour(int32_t label);
 
 // votes: landmarks x vertices, 0..1. Returns vertices x 3, linear RGB: grey where nothing is voted for,

@@ -32,7 +32,7 @@ std::vector<Matrix4> shown_pose(RestPose pose, const CharacterRig& rig) {
   const auto result = stretched_arms(rig.rig.joints, rig.rest, pose == RestPose::a ? below : 0.0);
   if (result.empty())
     throw Error(Status::invalid_argument, "the skeleton has no two arms, which a T or A pose is made of",
-                "ask for the rest pose of the characters that taught the model, FOCAL_POSE_OF_TEACHERS");
+                "ask for the rest pose of the training characters of the model, FOCAL_POSE_OF_TEACHERS");
   return result;
 }
 

@@ -14,10 +14,11 @@ namespace focal {
 enum class RestPose : int32_t { of_mesh = 0, of_teachers = 1, t = 2, a = 3 };
 
 struct CharacterParams {
-  std::optional<SkeletonTemplate> by_template = {};  // nothing: rigged characters taught the model
-  bool symmetric = false;                            // see make_symmetric; a template says so itself
-  int32_t influences = max_influences;               // of one vertex at most, 1 to 8
-  FixedJoints fixed = {};                            // in the coordinates of mesh->source
+  std::optional<SkeletonTemplate> by_template =
+      {};                               // nothing: the skeleton of its rigged training characters
+  bool symmetric = false;               // see make_symmetric; a template says so itself
+  int32_t influences = max_influences;  // of one vertex at most, 1 to 8
+  FixedJoints fixed = {};               // in the coordinates of mesh->source
   bool drop_helpers = false;
   RestPose rest_pose = RestPose::of_mesh;
   BoneNames names = BoneNames::as_trained;

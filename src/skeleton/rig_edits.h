@@ -15,7 +15,7 @@ bool is_helper_bone(const std::string& name);
 std::vector<size_t> drop_helper_bones(CharacterRig& character);
 
 // Where the joints go: as in `rest`, but each upper arm, lower arm and hand points away from the other side, `below` radians below the
-// level (y is up), and what hangs on them goes along. The joints' roles (bone_roles) name the arms. Empty: there are none.
+// level (y is up), and what hangs on them goes along. The joints' roles (bone_roles) name the arms. Empty without arms.
 std::vector<Matrix4> stretched_arms(const std::vector<Joint>& joints, std::vector<Matrix4> rest,
                                     double below);
 

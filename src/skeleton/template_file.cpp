@@ -54,7 +54,7 @@ Vector3 direction_of(const json& rest) {
 }
 
 TemplateJoint joint_of(const json& from) {
-  if (!from.is_object()) refuse("has a joint that is no object");
+  if (!from.is_object()) refuse("has a joint that is not an object");
   check_keys(from, {"name", "parent", "centre", "surface", "between", "share", "tip", "rest"});
   TemplateJoint joint;
   joint.name = text_of(from, "name"), joint.parent = text_of(from, "parent");

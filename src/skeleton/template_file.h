@@ -12,7 +12,7 @@ namespace focal {
 // (limits, another version), invalid_argument (not of this form).
 SkeletonTemplate parse_skeleton_template(const char* text);
 
-// The one that a model file carries over its landmarks. Throws invalid_file: a damaged file can hold one that is none.
+// The one that a model file carries over its landmarks. Throws invalid_file: a corrupt file can hold text that is not a template.
 SkeletonTemplate template_of_model(const std::string& text, const std::vector<std::string>& landmarks);
 
 }  // namespace focal

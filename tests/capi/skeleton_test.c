@@ -106,7 +106,7 @@ static void check_bad_templates(const focal_detection* detection) {
       {TEMPLATE("\"symmetric\":1,\"joints\":[]"), "neither true nor false"},
       {TEMPLATE("\"symmetric\":true"), "no list of \"joints\""},
       {TEMPLATE("\"joints\":3"), "no list of \"joints\""},
-      {JOINTS("3"), "a joint that is no object"},
+      {JOINTS("3"), "a joint that is not an object"},
       {JOINTS("{\"name\":3}"), "\"name\" that is no text"},
       {JOINTS("{\"nane\":\"a\"}"), "unknown \"nane\""},
       {JOINTS("{\"name\":\"a\",\"centre\":\"nose\"}"), "\"centre\" that is no list"},

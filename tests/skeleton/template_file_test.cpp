@@ -52,7 +52,7 @@ TEST_CASE("what is no template is refused with what is wrong") {
   check_refused("[]", bad, "has no \"format\"");
   check_refused(R"({"format": "focal-skeleton-template", "version": 2})", Status::unsupported,
                 "another version");
-  check_refused(with_joints("3"), bad, "a joint that is no object");
+  check_refused(with_joints("3"), bad, "a joint that is not an object");
   check_refused(with_joints(R"({"nmae": "a"})"), bad, "an unknown \"nmae\"");
   check_refused(with_joints(R"({"name": 3})"), bad, "a \"name\" that is no text");
   check_refused(with_joints(R"({"centre": "a"})"), bad, "a \"centre\" that is no list");
