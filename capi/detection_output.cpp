@@ -1,6 +1,5 @@
 // What leaves a detection in bulk: vote maps, distances and regions, files.
 #include <algorithm>
-#include <string>
 
 #include "arguments.h"
 #include "base/atomic_file.h"

@@ -1,7 +1,6 @@
 // Joints and skin weights: of a detected mesh, or weights for a skeleton that is there already.
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <utility>
 
 #include "arguments.h"
 #include "boundary.h"

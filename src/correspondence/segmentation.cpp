@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "descriptors/si_hks.h"
 #include "landmarks/vote_maps.h"

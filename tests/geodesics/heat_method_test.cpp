@@ -121,7 +121,7 @@ TEST_CASE("bridged parts are a finite distance apart") {
   const PreparedMesh mesh = prepare(both);
   const std::vector<int32_t> sources = {1};  // (-1, 0, 0), far from the other part
   const auto bridges = bridges_of(mesh);
-  const HeatMethod heat(mesh.surface, make_operators(mesh.surface, bridges), {}, 1, false, bridges);
+  const HeatMethod heat(mesh.surface, make_operators(mesh.surface, bridges), {}, false, bridges);
   const RowMatrixf d = heat.distances(sources, {});
   CHECK(d.allFinite());
   CHECK(d.row(0).tail(n).minCoeff() > d.row(0).head(n).mean());  // the other part lies beyond
@@ -138,7 +138,7 @@ TEST_CASE("what lies beyond a bridge is farther by the length of its gap") {
     as_it_is.analysed = AnalysedSurface::as_it_is;
     const PreparedMesh mesh = prepare(both, as_it_is);
     const auto bridges = bridges_of(mesh);
-    const HeatMethod heat(mesh.surface, make_operators(mesh.surface, bridges), {}, 1, false, bridges);
+    const HeatMethod heat(mesh.surface, make_operators(mesh.surface, bridges), {}, false, bridges);
     for (const int32_t source : {int32_t{1}, n + 1}) {  // from either side
       const std::vector<int32_t> sources = {source};
       const Vector d = (mesh.scale * heat.distances(sources, {}).row(0)).cast<double>().transpose();
