@@ -37,7 +37,7 @@ Status status_of(std::span<const std::byte> file) {
   }
 }
 
-std::string error_of(std::span<const std::byte> file) {
+std::string archive_error_of(std::span<const std::byte> file) {
   try {
     Archive archive(kind, file);
     return "";
@@ -176,20 +176,20 @@ TEST_CASE("numbers of items are taken as far as the bytes go") {
 
 TEST_CASE("a file says why it is none") {
   const auto file = small_archive();
-  check_archive_error(error_of(std::span(file).first(15)), "This is not a focal test file");
-  check_archive_error(error_of(std::span(file).first(16)), "test header: size runs past the end");
-  check_archive_error(error_of(std::span(file).first(file.size() - 1)), "is truncated");
+  check_archive_error(archive_error_of(std::span(file).first(15)), "This is not a focal test file");
+  check_archive_error(archive_error_of(std::span(file).first(16)), "test header: size runs past the end");
+  check_archive_error(archive_error_of(std::span(file).first(file.size() - 1)), "is truncated");
   auto longer = file;
   longer.push_back({});
-  check_archive_error(error_of(longer), "has bytes after its end");
+  check_archive_error(archive_error_of(longer), "has bytes after its end");
 }
 
 TEST_CASE("as many sections as allowed, and no more than there are") {
-  CHECK(error_of(archive_of(1024)) == "");
-  check_archive_error(error_of(archive_of(1025)), "bad section count");
+  CHECK(archive_error_of(archive_of(1024)) == "");
+  check_archive_error(archive_error_of(archive_of(1025)), "bad section count");
   auto file = small_archive();
   put(file, 24, 1024);
-  check_archive_error(error_of(file), "bad section count");
+  check_archive_error(archive_error_of(file), "bad section count");
 }
 
 TEST_CASE("sections lie one after the other, each once, and fill the file") {
@@ -197,7 +197,7 @@ TEST_CASE("sections lie one after the other, each once, and fill the file") {
     auto file = small_archive();
     put(file, at, value);
     sign(file);
-    return error_of(file);
+    return archive_error_of(file);
   };
   const auto file = small_archive();
   constexpr size_t first = 32, second = 56;  // entries: name, checksum, offset, size

@@ -55,7 +55,7 @@ static void check_choices(focal_mesh* mesh, const shape* truth) {
       focal_train_params kept;
       if (preset == FOCAL_PRESET_DEFAULT && distance >= FOCAL_DISTANCE_BIHARMONIC) {
         CHECK_REFUSED(try_train(preset, descriptor, distance, &model), FOCAL_ERROR_UNSUPPORTED,
-                      "along the surface");
+                      "is not geodesic");
         continue;
       }
       CHECK_OK(try_train(preset, descriptor, distance, &model));

@@ -39,7 +39,7 @@ TEST_CASE("one step beyond each bound is refused, the bound itself is not") {
   const std::vector<Change> changes = {
       {"/buffers/0/byteLength", 0, "buffers[0].byteLength is 0, outside 1"},
       {"/buffers/0/byteLength", bytes - 1, "reaches beyond its buffer"},
-      {"/buffers/0/byteLength", bytes + 1, "bytes are"},
+      {"/buffers/0/byteLength", bytes + 1, "but the buffer has"},
       {"/buffers/0/uri", 1, "buffers[0].uri is not"},
       {"/bufferViews/0/buffer", 1, "refers to element 1 of 1"},
       {"/bufferViews/0/buffer", -1, "refers to element -1 of 1"},
