@@ -24,11 +24,9 @@ constexpr double point_weight = 0.1;    // weight of a distance along the surfac
 constexpr double normal_cost = 0.0245;  // of two perpendicular normals
 constexpr double pose_cost = 0.02;      // of joints bent by 90 degrees from the bind pose
 constexpr double min_facing = 0.05;     // pairs with opposite normals keep a small weight
-// Distances at which the weight of a pair decreases, in the first and the last round, and of an image of a
-// map.
+// Distances at which the weight of a pair decreases: in the first and last round, and of a map's image.
 constexpr double loose = 0.17, tight = 0.045, map_outlier = 0.12;
-constexpr double max_bend = 1.8;                    // above it, a joint starts in its bind pose
-constexpr double max_angle = 0.3, max_scale = 0.2;  // per round
+constexpr double max_bend = 1.8, max_angle = 0.3, max_scale = 0.2;  // of a start; the others of one round
 // Weights of all bones together, relative to distances whose weights sum to about 1.
 constexpr double bone_weight = 3;        // a joint is at the end of its parent's bone
 constexpr double angle_weight = 5e-3;    // rotations of a round, and differences between neighbours
@@ -37,9 +35,8 @@ constexpr double even_weight = 3e-3;     // scales of neighbours
 constexpr double size_weight = 2.5e-2;   // scales relative to the mean
 constexpr double slender_weight = 1e-2;  // length relative to girth
 constexpr double symmetry_weight = 0.3, still_weight = 1e-3;  // of both sides; of not moving
-// Joints nearer to a control than this have equal weight for its position.
-constexpr double control_reach = 0.1;
-constexpr int unknowns = 8;  // per joint: position, rotation, length, girth
+constexpr double control_reach = 0.1;  // joints nearer to a control than this place it with equal weight
+constexpr int unknowns = 8;            // per joint: position, rotation, length, girth
 
 using Jacobian = Eigen::Matrix<double, 3, unknowns>;
 
@@ -369,8 +366,7 @@ void ArticulatedFit::run(const FitRounds& rounds, const std::vector<int32_t>& im
   take_along(posture);
 }
 
-// Joints that do not move on their own follow their parent; controls above all moving joints follow the
-// joints near them.
+// Joints that do not move on their own follow their parent, controls above all moving joints those near them.
 void ArticulatedFit::take_along(Posture& posture) const {
   MatrixX3 before(moving_.size(), 3), after(moving_.size(), 3);
   for (size_t slot = 0; slot < moving_.size(); ++slot) {
