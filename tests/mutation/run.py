@@ -41,9 +41,8 @@ SUBJECTS = [
 # Of the C interface: tests/capi/X_test for capi/X.cpp, and these, the likeliest and quickest first.
 PROGRAMS = collections.defaultdict(list, {
     "arguments": ["mesh", "model"], "boundary": ["structs"], "context": ["structs", "host"], "correspondence": ["detection"],
-    "detection": ["model", "analysis"], "detection_output": ["detection", "model"], "model": ["structs"],
-    "regions": ["detection", "model"], "segmentation": ["detection", "skeleton"], "skeleton_template": ["skeleton"],
-    "status": ["structs"], "structs": ["mesh"], "surface_points": ["training_set", "mesh"], "training_set": ["skeleton"]})
+    "detection": ["model", "analysis"], "detection_output": ["detection", "model"], "model": ["structs"], "status": ["structs"],
+    "training_set": ["skeleton"]})
 
 Mutant = collections.namedtuple("Mutant", "path line what start end new kind")  # new: what stands for text[start:end]
 
