@@ -1,3 +1,4 @@
+#!/usr/bin/env python3
 """Writes focal/_abi.py, the declarations of focal.h for ctypes, from the header itself.
 
     generate_abi.py [--check] [HEADER [OUT]]

@@ -85,19 +85,19 @@ std::string with_side(std::string name, const char* side) {
   return name;
 }
 
-// The bone in every convention, indexed by BoneNames minus one.
-using Names = std::array<std::string, 6>;
+// The bone in every convention that can be written; empty: it has no such bone.
+using Names = std::map<BoneNames, std::string>;
 
 Names names_of(const Bone& bone, bool left) {
-  Names names{with_side(bone.vrm, left ? "left" : "right"),
-              "mixamorig:" + with_side(bone.mixamo, left ? "Left" : "Right"),
-              with_side(bone.unreal, left ? "l" : "r"),
-              with_side(bone.rigify, left ? "L" : "R"),
-              "",
-              ""};
-  names[4] = names[0];
-  names[4][0] = static_cast<char>(std::toupper(static_cast<unsigned char>(names[4][0])));
-  names[5] = names[3].substr(deforming.size());
+  Names names;
+  const std::string vrm = with_side(bone.vrm, left ? "left" : "right");
+  names[BoneNames::vrm] = names[BoneNames::unity] = vrm;
+  char& initial = names[BoneNames::unity][0];
+  initial = static_cast<char>(std::toupper(static_cast<unsigned char>(initial)));
+  names[BoneNames::mixamo] = "mixamorig:" + with_side(bone.mixamo, left ? "Left" : "Right");
+  names[BoneNames::unreal] = with_side(bone.unreal, left ? "l" : "r");
+  names[BoneNames::rigify] = with_side(bone.rigify, left ? "L" : "R");
+  names[BoneNames::rigify_metarig] = names[BoneNames::rigify].substr(deforming.size());
   return names;
 }
 
@@ -110,9 +110,9 @@ std::vector<Names> all_bones() {
 }
 
 bool is_called(const Names& names, const std::string& name) {
-  constexpr size_t understood = 5;  // without the metarig's, where `spine` are the hips
-  if (std::find(names.begin(), names.begin() + understood, name) != names.begin() + understood) return true;
-  return names[1] == "mixamorig:" + name;  // the prefix is often dropped
+  for (const auto& [convention, own] : names)  // not the metarig's, whose `spine` are the hips
+    if (convention != BoneNames::rigify_metarig && own == name) return true;
+  return names.at(BoneNames::mixamo) == "mixamorig:" + name;  // the prefix is often dropped
 }
 
 // Viewers drop dots, exporters replace them by underscores.
@@ -137,17 +137,17 @@ Table table_of(const Writer& written) {
 
 std::vector<Table> all_tables() {
   std::vector<Table> tables;
-  const auto add = [&](size_t convention) {
+  const auto add = [&](BoneNames convention) {
     tables.push_back(table_of([&](const Bone& bone, bool left) { return names_of(bone, left)[convention]; }));
   };
-  add(5);
+  add(BoneNames::rigify_metarig);
   for (const auto column : {&Bone::biped, &Bone::daz, &Bone::cc, &Bone::quaternius, &Bone::kaykit})
     tables.push_back(
         table_of([&](const Bone& bone, bool left) { return with_side(bone.*column, left ? "L" : "R"); }));
-  add(0);
+  add(BoneNames::vrm);
   tables.push_back(
       table_of([](const Bone& bone, bool left) { return with_side(bone.mixamo, left ? "Left" : "Right"); }));
-  add(2), add(3);
+  add(BoneNames::unreal), add(BoneNames::rigify);
   return tables;
 }
 
@@ -228,7 +228,10 @@ std::optional<std::string> bone_name(const std::string& name, BoneNames conventi
   if (convention == BoneNames::as_trained) return name;
   static const std::vector<Names> all = all_bones();
   for (const Names& names : all)
-    if (is_called(names, name)) return names[static_cast<size_t>(convention) - 1];
+    if (is_called(names, name)) {
+      const std::string& wanted = names.at(convention);
+      return wanted.empty() ? std::nullopt : std::optional(wanted);
+    }
   return std::nullopt;
 }
 
