@@ -58,10 +58,12 @@ DetectParams checked(const focal_detect_params* given) {
   check_range("focal_detect_params.found_confidence", params.found_confidence, 0, 1);
   check_range("focal_detect_params.absent_confidence", params.absent_confidence, 0, params.found_confidence);
   check_flag("focal_detect_params.keep_votes", params.keep_votes);
-  check_reserved("focal_detect_params", params.reserved);
+  check_range("focal_detect_params.orientation", params.orientation, FOCAL_ORIENTATION_UPRIGHT,
+              FOCAL_ORIENTATION_ANY);
   DetectParams result;
   copy_detect_fields(params, result);
   result.quality = static_cast<Quality>(params.quality);
+  result.orientation = static_cast<DetectParams::Orientation>(params.orientation);
   return result;
 }
 

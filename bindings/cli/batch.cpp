@@ -18,10 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct BatchOptions : CommonOptions {
+struct BatchOptions : CommonOptions, DetectionOptions {
   std::string model, input, output, shard;
   bool rig = false, keep_failed = false;
-  focal_quality quality = FOCAL_QUALITY_BEST;
 };
 
 // "2/3": every third file, from the second on.
@@ -58,7 +57,7 @@ Found files_in(const std::string& folder, const std::string& shard) {
 Json process(const Context& context, const focal_model* model, const fs::path& file, const fs::path& target,
              const BatchOptions& options, focal_task* task) {
   const Mesh mesh = load_mesh(context.get(), file.string(), options);
-  auto params = detect_params_of(options.quality, options);
+  auto params = detect_params_of(options, options);
   params.keep_votes = 0;
   const auto detection = owned<Detection>(focal_model_detect, model, mesh.get(), &params, task);
   Json entry = {{"status", "done"}};
@@ -181,7 +180,7 @@ void add_batch(CLI::App& app) {
       ->needs(rig);
   verb->add_option("--shard", options->shard, "Process only part I of N of the files, to share the work")
       ->type_name("I/N");
-  add_quality_option(*verb, options->quality);
+  add_detection_options(*verb, *options);
   add_mesh_options(*verb, *options);
   add_common_options(*verb, *options);
   verb->callback([options] { batch(*options); });

@@ -15,10 +15,9 @@ namespace {
 
 using Correspondence = Owned<focal_correspondence, focal_correspondence_destroy>;
 
-struct CorrespondOptions : CommonOptions {
+struct CorrespondOptions : CommonOptions, DetectionOptions {
   std::string model, from, to, output;
   bool dense = false;
-  focal_quality quality = FOCAL_QUALITY_BEST;
 };
 
 Json point_json(const focal_surface_point& point) {
@@ -59,7 +58,7 @@ void correspond(const CorrespondOptions& options) {
   const auto model = load_model(context.get(), options.model);
   const Mesh from = load_mesh(context.get(), options.from, options),
              to = load_mesh(context.get(), options.to, options);
-  auto params = detect_params_of(options.quality, options);
+  auto params = detect_params_of(options, options);
   params.keep_votes = 0;
   const auto a = owned<Detection>(focal_model_detect, model.get(), from.get(), &params,
                                   progress.begin("detecting", 0, 3));
@@ -90,7 +89,7 @@ void add_correspond(CLI::App& app) {
   verb->add_option("B", options->to, "glTF file: ... gets a point of this one")->type_name("")->required();
   verb->add_option("-o,--output", options->output, "File to write")->type_name("OUT.json")->required();
   verb->add_flag("--dense", options->dense, "Also find a point for every vertex of A");
-  add_quality_option(*verb, options->quality);
+  add_detection_options(*verb, *options);
   add_mesh_options(*verb, *options);
   add_common_options(*verb, *options);
   verb->callback([options] { correspond(*options); });

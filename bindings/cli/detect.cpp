@@ -15,9 +15,8 @@
 namespace focal_cli {
 namespace {
 
-struct DetectOptions : CommonOptions {
+struct DetectOptions : CommonOptions, DetectionOptions {
   std::string model, mesh, output, votes;
-  focal_quality quality = FOCAL_QUALITY_BEST;
 };
 
 // Null where the detector has no place at all to offer.
@@ -139,7 +138,7 @@ void detect(const DetectOptions& options) {
   Progress progress(options.quiet);
   const auto model = load_model(context.get(), options.model);
   const Mesh mesh = load_mesh(context.get(), options.mesh, options);
-  auto params = detect_params_of(options.quality, options);
+  auto params = detect_params_of(options, options);
   params.keep_votes = !options.votes.empty();
   const auto detection =
       owned<Detection>(focal_model_detect, model.get(), mesh.get(), &params, progress.begin("detecting"));
@@ -168,7 +167,7 @@ void add_detect(CLI::App& app) {
       ->type_name("OUT");
   verb->add_option("--votes", options->votes, "Vote maps to write, as vertex colours (glTF)")
       ->type_name("OUT.glb");
-  add_quality_option(*verb, options->quality);
+  add_detection_options(*verb, *options);
   add_mesh_options(*verb, *options);
   add_common_options(*verb, *options);
   verb->callback([options] { detect(*options); });

@@ -70,14 +70,20 @@ void add_subset_option(CLI::App& verb, std::vector<std::string>& subset) {
       ->allow_extra_args(false);
 }
 
-void add_quality_option(CLI::App& verb, focal_quality& quality) {
-  add_choice(verb, "--quality", quality, "best: with the slower refinements; interactive: for a viewport",
-             "best|interactive", {{"best", FOCAL_QUALITY_BEST}, {"interactive", FOCAL_QUALITY_INTERACTIVE}});
+void add_detection_options(CLI::App& verb, DetectionOptions& options) {
+  add_choice(verb, "--quality", options.quality,
+             "best: with the slower refinements; interactive: for a viewport", "best|interactive",
+             {{"best", FOCAL_QUALITY_BEST}, {"interactive", FOCAL_QUALITY_INTERACTIVE}});
+  add_choice(verb, "--orientation", options.orientation,
+             "Models of rigs: upright: stands and faces like the training characters, mostly; any: any "
+             "heading and up axis, slower",
+             "upright|any", {{"upright", FOCAL_ORIENTATION_UPRIGHT}, {"any", FOCAL_ORIENTATION_ANY}});
 }
 
-focal_detect_params detect_params_of(focal_quality quality, const CommonOptions& common) {
+focal_detect_params detect_params_of(const DetectionOptions& options, const CommonOptions& common) {
   auto params = initialised(focal_detect_params_init);
-  params.quality = quality;
+  params.quality = options.quality;
+  params.orientation = options.orientation;
   params.seed = common.seed.value_or(params.seed);
   return params;
 }

@@ -24,8 +24,13 @@ focal_train_params train_params_of(const TrainOptions& options, const CommonOpti
 void add_split_options(CLI::App& verb, std::string& split, size_t& limit, const std::string& what);
 void add_subset_option(CLI::App& verb, std::vector<std::string>& subset);
 
-// The knobs of detection that eval, detect and cross-validate share.
-void add_quality_option(CLI::App& verb, focal_quality& quality);
-focal_detect_params detect_params_of(focal_quality quality, const CommonOptions& common);
+// The knobs of detection that all verbs share which detect.
+struct DetectionOptions {
+  focal_quality quality = FOCAL_QUALITY_BEST;
+  focal_orientation orientation = FOCAL_ORIENTATION_UPRIGHT;
+};
+
+void add_detection_options(CLI::App& verb, DetectionOptions& options);
+focal_detect_params detect_params_of(const DetectionOptions& options, const CommonOptions& common);
 
 }  // namespace focal_cli

@@ -23,14 +23,13 @@
 namespace focal_cli {
 namespace {
 
-struct RigOptions : CommonOptions {
+struct RigOptions : CommonOptions, DetectionOptions {
   std::string model, mesh, output, names, animations, skeleton_template, vrm;
   std::vector<std::string> pins;
   focal_pose pose = FOCAL_POSE_OF_MESH;
   bool rest_pose = false, symmetric = false, keep_failed = false, keep_skeleton = false, ground_root = false,
        drop_helpers = false;
   int32_t influences = 4;
-  focal_quality quality = FOCAL_QUALITY_BEST;
 };
 
 const std::map<std::string, focal_bone_names> conventions = {
@@ -200,7 +199,7 @@ void rig(const RigOptions& options) {
         "train one on rigged characters: focal train --rigs A.glb -o MODEL; or describe one over its "
         "landmarks: --template FILE.json, here or for 'focal train'");
   const Mesh mesh = load_mesh(context.get(), options.mesh, options);
-  auto params = detect_params_of(options.quality, options);
+  auto params = detect_params_of(options, options);
   params.keep_votes = 0;
   const auto detection = owned<Detection>(focal_model_detect, model.get(), mesh.get(), &params,
                                           progress.begin("detecting", 0, 2));
@@ -293,7 +292,7 @@ void add_rig(CLI::App& app) {
   verb->add_option("--animations", options->animations,
                    "Rigged character whose animations are retargeted and added to the file")
       ->type_name("CHARACTER.glb");
-  add_quality_option(*verb, options->quality);
+  add_detection_options(*verb, *options);
   add_mesh_options(*verb, *options);
   add_common_options(*verb, *options);
   verb->callback([options] { rig(*options); });

@@ -14,10 +14,9 @@
 namespace focal_cli {
 namespace {
 
-struct SegmentOptions : CommonOptions {
+struct SegmentOptions : CommonOptions, DetectionOptions {
   std::string model, mesh, output;
   focal_segmentation method = FOCAL_SEGMENTATION_AUTO;
-  focal_quality quality = FOCAL_QUALITY_BEST;
 };
 
 // Which names the labels stand for.
@@ -33,7 +32,7 @@ void segment(const SegmentOptions& options) {
   Progress progress(options.quiet);
   const auto model = load_model(context.get(), options.model);
   const Mesh mesh = load_mesh(context.get(), options.mesh, options);
-  auto params = detect_params_of(options.quality, options);
+  auto params = detect_params_of(options, options);
   params.keep_votes = 0;
   const auto detection = owned<Detection>(focal_model_detect, model.get(), mesh.get(), &params,
                                           progress.begin("detecting", 0, 2));
@@ -82,7 +81,7 @@ void add_segment(CLI::App& app) {
               {"skeleton", FOCAL_SEGMENTATION_SKELETON},
               {"geodesic", FOCAL_SEGMENTATION_GEODESIC},
               {"k-means", FOCAL_SEGMENTATION_K_MEANS}});
-  add_quality_option(*verb, options->quality);
+  add_detection_options(*verb, *options);
   add_mesh_options(*verb, *options);
   add_common_options(*verb, *options);
   verb->callback([options] { segment(*options); });

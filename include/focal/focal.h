@@ -594,6 +594,15 @@ enum {
   FOCAL_QUALITY_INTERACTIVE = 1 /* for a viewport */
 };
 
+/* How a mesh may be turned relative to the training shapes, for models of rigs. */
+typedef int32_t focal_orientation;
+enum {
+  /* As the training shapes, +Y up and +Z to the front in glTF: other headings and up axes are tried, at a cost. */
+  FOCAL_ORIENTATION_UPRIGHT = 0,
+  /* All headings and up axes are equally likely: for meshes that face away or are not upright. Slower. */
+  FOCAL_ORIENTATION_ANY = 1
+};
+
 typedef struct focal_detect_params {
   uint32_t struct_size;
   focal_quality quality; /* default FOCAL_QUALITY_BEST */
@@ -605,9 +614,9 @@ typedef struct focal_detect_params {
   /* Below it: FOCAL_LANDMARK_ABSENT. A landmark that the model has learned to recognise as missing is ABSENT
      whatever its confidence. 0..found_confidence, default 0.05. */
   double absent_confidence;
-  int32_t keep_votes; /* 1: keep the vote maps in the detection. Default 1 */
-  int32_t reserved;
-  uint64_t seed; /* the same seed gives the same bits. Default 1 */
+  int32_t keep_votes;            /* 1: keep the vote maps in the detection. Default 1 */
+  focal_orientation orientation; /* default FOCAL_ORIENTATION_UPRIGHT */
+  uint64_t seed;                 /* the same seed gives the same bits. Default 1 */
   /* Known landmarks, for example corrected by hand: one point for each landmark of the model, in its order,
      FOCAL_NO_TRIANGLE for a landmark to be detected. Known landmarks stay in place, FOUND with confidence 1,
      and constrain the others. NULL and 0: none. Preset default only. */

@@ -92,18 +92,18 @@ std::vector<Heading> headings_about_up(const LandmarkModel& model, const Surface
 std::vector<Heading> headings_to_try(const LandmarkModel& model, const SurfaceAnalysis& analysis,
                                      DetectParams::Orientation orientation) {
   if (!model.params.oriented || !model.params.finds_heading) return {Heading{}};
-  const bool any_way = orientation == DetectParams::Orientation::any_way;
+  const bool is_any = orientation == DetectParams::Orientation::any;
   const auto count = std::min(looked_at, static_cast<int32_t>(analysis.samples.size()));
   const RowMatrixf placed = placed_features(analysis, count);
-  std::vector<Heading> result = headings_about_up(model, analysis, placed, any_way ? 0 : turned_penalty);
+  std::vector<Heading> result = headings_about_up(model, analysis, placed, is_any ? 0 : turned_penalty);
   const Matrix3 risen =
       correlation(expected_places(model.rising, model.facing_targets, invariant_features(analysis, count)),
                   placed, {1, 1, 1}, {1, 1, 1});
   const Matrix3 turn = best_turn(risen);
-  if (any_way || fit(risen, turn) > best_upright_fit(risen) + clearly_tilted)
+  if (is_any || fit(risen, turn) > best_upright_fit(risen) + clearly_tilted)
     for (Heading& heading : headings_about_up(model, analysis, turned(placed, turn), 0)) {
       heading.frame = heading.frame * turn;
-      heading.penalty += any_way ? 0 : tilted_penalty;
+      heading.penalty += is_any ? 0 : tilted_penalty;
       result.push_back(heading);
     }
   return result;

@@ -40,9 +40,9 @@ struct DetectParams {
   double absent_confidence = 0.05;  // below: absent
   Quality quality = Quality::best;
   // For models with a learned orientation: how the mesh may be rotated relative to it. With `upright`, other
-  // headings and up axes are tried where the mesh does not fit as it is, with a penalty; with `any_way` all
+  // headings and up axes are tried where the mesh does not fit as it is, with a penalty; with `any` all
   // orientations are equal.
-  enum class Orientation : int32_t { upright = 0, any_way = 1 } orientation = Orientation::upright;
+  enum class Orientation : int32_t { upright = 0, any = 1 } orientation = Orientation::upright;
   bool keep_votes = true;  // keep the vote maps in the detection
   uint64_t seed = 1;
   // Known landmarks, one entry per landmark, on the full surface: they stay in place, and the others are

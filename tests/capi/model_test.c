@@ -256,15 +256,13 @@ static void check_detect_ranges(const focal_model* model) {
   DETECT(found_confidence, -0.5, 0.5, 1, 1.5);
   DETECT(absent_confidence, -0.5, 0, 0.25, 1);
   DETECT(keep_votes, -1, 0, 1, 2);
+  DETECT(orientation, -1, FOCAL_ORIENTATION_UPRIGHT, FOCAL_ORIENTATION_ANY, 2);
   focal_detect_params params;
   focal_detection* detection = NULL;
   CHECK_OK(focal_detect_params_init(&params, sizeof params));
   params.found_confidence = params.absent_confidence = 0;
   CHECK_REFUSED(focal_model_detect(model, NULL, &params, NULL, &detection), FOCAL_ERROR_INVALID_HANDLE,
                 "focal_mesh is NULL");
-  params.reserved = 1;
-  CHECK_REFUSED(focal_model_detect(model, NULL, &params, NULL, &detection), FOCAL_ERROR_UNSUPPORTED,
-                "reserved");
 }
 
 static void check_fixed_points(const focal_model* model) {

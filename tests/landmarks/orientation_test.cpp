@@ -98,15 +98,14 @@ TEST_CASE("headings: one that lies is tried upright, at a price; any way it cost
       return right->penalty;
     };
     CHECK(price_of_right(DetectParams::Orientation::upright) >
-          price_of_right(DetectParams::Orientation::any_way) + 1);
+          price_of_right(DetectParams::Orientation::any) + 1);
   }
 }
 
 TEST_CASE("headings: a model without an orientation has one") {
   LandmarkModel model = model_of_body();
   model.params.oriented = false;
-  const auto headings =
-      headings_to_try(model, analysed(Matrix3::Identity()), DetectParams::Orientation::any_way);
+  const auto headings = headings_to_try(model, analysed(Matrix3::Identity()), DetectParams::Orientation::any);
   REQUIRE(headings.size() == 1);
   CHECK(headings[0].frame == Matrix3::Identity());
   CHECK(headings[0].penalty == 0);

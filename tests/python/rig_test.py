@@ -98,6 +98,21 @@ class Rigs(Case):
         with self.assertRaisesRegex(ValueError, "3 numbers"):
             found().rig(fixed_joints={name: (0, 0)})
 
+    def test_orientation(self):
+        body = focal.Mesh.load(HUMANOIDS / "humanoid_01.glb")
+        places, faces = [tuple(row) for row in body.vertices], [tuple(row) for row in body.faces]
+        height = max(place[1] for place in places) - min(place[1] for place in places)
+        upright = {joint.name: joint.position for joint in found().rig().joints}
+        turns = {"back": (lambda p: (-p[0], p[1], -p[2]),) * 2, "head down": (lambda p: (p[0], -p[1], -p[2]),) * 2,
+                 "lying": (lambda p: (p[0], -p[2], p[1]), lambda p: (p[0], p[2], -p[1]))}
+        for name, (there, back) in turns.items():
+            with self.subTest(name):
+                turned = focal.Mesh([there(place) for place in places], faces)
+                for joint in rig_model().detect(turned, orientation="any").rig().joints:
+                    self.assertLess(math.dist(back(joint.position), upright[joint.name]), 0.02 * height, joint.name)
+        with self.assertRaises(ValueError):
+            rig_model().detect(body, orientation="sideways")
+
     def test_ground_root_and_vrm(self):
         folder = pathlib.Path(self.folder())
         skeleton = found().rig(names="mixamo", ground_root=True)

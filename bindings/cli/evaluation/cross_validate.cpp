@@ -15,11 +15,10 @@ namespace {
 constexpr size_t max_folds = 10;  // leave-one-out up to ten meshes
 constexpr size_t min_meshes = 3;  // one left out leaves two, the fewest that can be learned from
 
-struct CrossValidationOptions : CommonOptions, TrainOptions {
+struct CrossValidationOptions : CommonOptions, DetectionOptions, TrainOptions {
   std::string set, split = "train";
   size_t folds = 0, limit = 0;
   std::vector<std::string> subset;
-  focal_quality quality = FOCAL_QUALITY_BEST;
 };
 
 size_t chosen_folds(const CrossValidationOptions& options, size_t meshes) {
@@ -58,7 +57,7 @@ class CrossValidation {
     std::vector<MeshOutcome> outcomes;
     for (size_t fold = 0; fold < fold_count_; ++fold) {
       const Model model = train_without(fold);
-      auto params = detect_params_of(options_.quality, options_);
+      auto params = detect_params_of(options_, options_);
       params.keep_votes = 0;
       for (size_t i = 0; i < folds_.size(); ++i) {
         if (folds_[i] != fold) continue;
@@ -143,7 +142,7 @@ void add_cross_validate(CLI::App& app) {
   add_split_options(*verb, options->split, options->limit, "Meshes to use");
   add_subset_option(*verb, options->subset);
   add_train_options(*verb, *options);
-  add_quality_option(*verb, options->quality);
+  add_detection_options(*verb, *options);
   add_mesh_options(*verb, *options);
   add_common_options(*verb, *options);
   verb->callback([options] { cross_validate(*options); });

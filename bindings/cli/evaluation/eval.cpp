@@ -14,11 +14,10 @@
 namespace focal_cli {
 namespace {
 
-struct EvalOptions : CommonOptions {
+struct EvalOptions : CommonOptions, DetectionOptions {
   std::string model, set, split = "test", report;
   size_t limit = 0;
   std::vector<std::string> subset;
-  focal_quality quality = FOCAL_QUALITY_BEST;
 };
 
 void check_some_known(const focal_model* model, const std::set<std::string>& counted,
@@ -35,7 +34,7 @@ std::vector<MeshOutcome> outcomes_of(const focal_context* context, const focal_m
                                      const SetFolder& set, const std::set<std::string>& counted,
                                      const EvalOptions& options, Progress& progress, ReportPage* page) {
   const std::vector<std::string> names = set.meshes(options.split, options.limit);
-  auto params = detect_params_of(options.quality, options);
+  auto params = detect_params_of(options, options);
   params.keep_votes = page != nullptr;
   std::vector<MeshOutcome> outcomes;
   for (size_t i = 0; i < names.size(); ++i) {
@@ -112,7 +111,7 @@ void add_eval(CLI::App& app) {
           "--report", options->report,
           "Report page to write: interactive meshes with marks and vote maps, tables, curves; opens offline")
       ->type_name("OUT.html");
-  add_quality_option(*verb, options->quality);
+  add_detection_options(*verb, *options);
   add_mesh_options(*verb, *options);
   add_common_options(*verb, *options);
   verb->callback([options] { evaluate(*options); });

@@ -9,7 +9,7 @@ The package calls focal's shared library through ctypes and needs nothing else; 
 come as arrays. Positions and lengths are in the units of your mesh; vertex and triangle numbers are those of your mesh,
 from 0. All objects but TrainingSet may be used by any number of threads at once; calls let other Python threads run.
 """
-from ._abi import Backend, BoneNames, Descriptor, Distance, LandmarkStatus, LogLevel, Pose, Preset, Quality, Scenery, Segmentation, Status, Surface, Verdict
+from ._abi import Backend, BoneNames, Descriptor, Distance, LandmarkStatus, LogLevel, Orientation, Pose, Preset, Quality, Scenery, Segmentation, Status, Surface, Verdict
 from ._context import Context, stock_models
 from ._correspondence import Correspondence
 from ._detection import Detection, Landmark, Place
@@ -28,7 +28,7 @@ __version__ = ".".join(map(str, VERSION))
 
 __all__ = [
     "Analysis", "Backend", "BoneNames", "Cancelled", "Context", "Correspondence", "Descriptor", "Detection", "Distance",
-    "Error", "Evaluation", "Joint", "Landmark", "LandmarkStatus", "LeftOut", "LibraryError", "LogLevel", "MarkError", "MarkedSet", "Mesh", "Model", "NO_TRIANGLE", "Part", "Place", "Pose",
+    "Error", "Evaluation", "Joint", "Landmark", "LandmarkStatus", "LeftOut", "LibraryError", "LogLevel", "MarkError", "MarkedSet", "Mesh", "Model", "NO_TRIANGLE", "Orientation", "Part", "Place", "Pose",
     "Preset", "Quality", "Scenery", "Segmentation", "Skeleton", "Status", "Surface", "SurfacePoint", "SymmetryPlane", "Task", "TrainingSet",
     "Verdict", "descriptors", "distances", "load_library", "peak_memory_bytes", "read_landmarks", "stock_models", "version", "write_landmarks",
 ]

@@ -89,6 +89,12 @@ class Quality(IntEnum):
     INTERACTIVE = 1
 
 
+class Orientation(IntEnum):
+    """focal_orientation"""
+    UPRIGHT = 0
+    ANY = 1
+
+
 class LandmarkStatus(IntEnum):
     """focal_landmark_status"""
     FOUND = 0
@@ -302,7 +308,7 @@ class focal_detect_params(Structure):
         ("found_confidence", c_double),
         ("absent_confidence", c_double),
         ("keep_votes", c_int32),
-        ("reserved", c_int32),
+        ("orientation", c_int32),
         ("seed", c_uint64),
         ("fixed_points", P(focal_surface_point)),
         ("fixed_point_count", c_uint64),

@@ -154,7 +154,7 @@ class Model(Handle):
         return None if text is None else str(text, "utf-8")
 
     def detect(self, mesh: Mesh | Analysis, *, quality: _abi.Quality | str | None = None,
-               sampling_rate: float | None = None, max_samples: int | None = None,
+               orientation: _abi.Orientation | str | None = None, sampling_rate: float | None = None, max_samples: int | None = None,
                peaks_per_landmark: int | None = None, found_confidence: float | None = None,
                absent_confidence: float | None = None, keep_votes: bool | None = None, seed: int | None = None,
                fixed: Mapping[str, Mark] | None = None, task: Task | None = None,
@@ -162,6 +162,8 @@ class Model(Handle):
         """Finds the landmarks on a mesh, in a fraction of a second; on an Analysis of it in about 0.1 s.
 
         quality             "best", or "interactive": faster, for a viewport
+        orientation         of models of rigs: "upright", which expects meshes to stand and face like the training characters and
+                            tries others at a cost, or "any": all headings and up axes are equally likely. Default "upright"
         sampling_rate       of the vertices analysed, 0..1. Default 0: chosen for the model and quality
         max_samples         1 or more. Default 1250
         peaks_per_landmark  candidates among which the constellation chooses, 1..64. Default 8
@@ -179,7 +181,8 @@ class Model(Handle):
             given, surface, function = mesh._handle, mesh._mesh, "focal_model_detect_analysis"
         else:
             given, surface, function = handle_of(mesh, Mesh, "mesh"), mesh, "focal_model_detect"
-        given_params = given_of(quality=quality, sampling_rate=sampling_rate, max_samples=max_samples, peaks_per_landmark=peaks_per_landmark,
+        given_params = given_of(quality=quality, orientation=orientation, sampling_rate=sampling_rate, max_samples=max_samples,
+                                peaks_per_landmark=peaks_per_landmark,
                                 found_confidence=found_confidence, absent_confidence=absent_confidence, keep_votes=keep_votes, seed=seed)
         params = fill(new(_abi.focal_detect_params), **given_params)
         handle, names = self._handle, self.joint_names
@@ -210,14 +213,15 @@ class Model(Handle):
         return result(told.owner), result(true.owner)
 
     def detect_many(self, meshes: Sequence[Mesh], *, quality: _abi.Quality | str | None = None,
-                    sampling_rate: float | None = None, max_samples: int | None = None,
+                    orientation: _abi.Orientation | str | None = None, sampling_rate: float | None = None, max_samples: int | None = None,
                     peaks_per_landmark: int | None = None, found_confidence: float | None = None,
                     absent_confidence: float | None = None, keep_votes: bool | None = None, seed: int | None = None,
                     task: Task | None = None, on_progress: Progress | None = None) -> list[Detection]:
         """Runs detect() on many meshes in parallel, one per thread, with a higher throughput than single calls. It returns all
         results or none: an Error gives the number of the mesh that failed. Progress counts meshes: on_progress(0.3, "3 of 10 meshes")."""
         handles = [handle_of(mesh, Mesh, "meshes") for mesh in meshes]
-        given_params = given_of(quality=quality, sampling_rate=sampling_rate, max_samples=max_samples, peaks_per_landmark=peaks_per_landmark,
+        given_params = given_of(quality=quality, orientation=orientation, sampling_rate=sampling_rate, max_samples=max_samples,
+                                peaks_per_landmark=peaks_per_landmark,
                                 found_confidence=found_confidence, absent_confidence=absent_confidence, keep_votes=keep_votes, seed=seed)
         params = fill(new(_abi.focal_detect_params), **given_params)
         handle, names = self._handle, self.joint_names

@@ -19,7 +19,7 @@ _RANGES = {
     ctypes.c_uint64: (0, 2**64 - 1),
 }
 # By field; 0..1 the quality of a skeleton is a double, and stays one.
-_ENUMS = {"preset": _abi.Preset, "backend": _abi.Backend, "quality": _abi.Quality, "surface": _abi.Surface,
+_ENUMS = {"preset": _abi.Preset, "backend": _abi.Backend, "quality": _abi.Quality, "orientation": _abi.Orientation, "surface": _abi.Surface,
           "verdict": _abi.Verdict, "rest_pose": _abi.Pose}
 
 
