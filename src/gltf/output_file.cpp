@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <iterator>
+#include <string_view>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
@@ -43,7 +45,11 @@ void copy_beside(const fs::path& from, const fs::path& name, const fs::path& to)
 void check_suffix(const fs::path& path, bool is_binary) {
   const std::string suffix = suffix_of(path);
   const char* wanted = is_binary ? ".glb" : ".gltf";
-  const bool is_wrong = is_binary ? suffix == ".gltf" : suffix == ".glb" || suffix == ".vrm";
+  // Of formats that are not written at all: a glTF file under such a name would open nowhere.
+  constexpr std::string_view foreign[] = {".fbx", ".obj",   ".usd", ".usda", ".usdc", ".usdz",
+                                          ".dae", ".blend", ".ply", ".stl",  ".3ds",  ".x3d"};
+  const bool is_wrong = (is_binary ? suffix == ".gltf" : suffix == ".glb" || suffix == ".vrm") ||
+                        std::find(std::begin(foreign), std::end(foreign), suffix) != std::end(foreign);
   if (is_wrong)
     throw Error(Status::invalid_argument,
                 "the mesh is written as " + std::string(wanted) + ", the path ends in " + suffix,

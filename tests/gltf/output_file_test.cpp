@@ -14,6 +14,8 @@ TEST_CASE("a path that promises the other kind of file is refused") {
   for (const char* path : {"a.gltf", "a.GLTF", "a.json", "a"}) CHECK_NOTHROW(check_suffix(path, false));
   CHECK_THROWS_AS(check_suffix("a.gltf", true), Error);
   for (const char* path : {"a.glb", "a.Vrm"}) CHECK_THROWS_AS(check_suffix(path, false), Error);
+  for (const char* path : {"a.fbx", "a.USDZ", "a.obj"})
+    for (const bool is_binary : {true, false}) CHECK_THROWS_AS(check_suffix(path, is_binary), Error);
 }
 
 TEST_CASE("a mesh without a file of its own is written as a plain GLB") {
