@@ -1,5 +1,5 @@
 # shellcheck shell=sh
-# Sourced: runs named steps and tells at the end where the time went.
+# Sourced: runs named steps and prints at the end where the time went.
 steps_began=$(date +%s.%N)
 steps_times=
 

@@ -17,12 +17,12 @@ using Entries = std::unordered_map<uintptr_t, Entry>;
 
 // On 64-bit systems tags lie where no address of a program can, so a host's own pointer is never mistaken for
 // one and a followed tag faults at once.
-constexpr uintptr_t kFirstTag = sizeof(uintptr_t) == 8 ? static_cast<uintptr_t>(0xF0CA'0000'0000'0001u) : 1;
+constexpr uintptr_t first_tag = sizeof(uintptr_t) == 8 ? static_cast<uintptr_t>(0xF0CA'0000'0000'0001u) : 1;
 
 // Trivially destructible, so that a handle destroyed while the process ends is still answered.
 constinit std::mutex table_mutex;
 constinit Entries* entries = nullptr;
-constinit uintptr_t next_tag = kFirstTag;
+constinit uintptr_t next_tag = first_tag;
 
 // Gives the memory back when the library is unloaded.
 struct TableCloser {
@@ -50,7 +50,7 @@ const char* name_of(HandleType type) { return type_names[static_cast<size_t>(typ
   if (found)
     throw Error(Status::invalid_handle, "a " + name + " is needed, this is a " + name_of(found->type),
                 "check the order of the arguments");
-  if (tag >= kFirstTag && tag < next_tag)
+  if (tag >= first_tag && tag < next_tag)
     throw Error(Status::invalid_handle, "the " + name + " has been destroyed",
                 "keep the handle until the last call that uses it");
   throw Error(Status::invalid_handle, "this " + name + " was not made by this library",

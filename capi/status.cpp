@@ -17,7 +17,7 @@ struct StatusName {
   const char* name;
 };
 
-constexpr StatusName kStatusNames[] = {
+constexpr StatusName status_names[] = {
     {FOCAL_OK, Status::ok, "FOCAL_OK"},
     {FOCAL_ERROR_INVALID_ARGUMENT, Status::invalid_argument, "FOCAL_ERROR_INVALID_ARGUMENT"},
     {FOCAL_ERROR_INVALID_MESH, Status::invalid_mesh, "FOCAL_ERROR_INVALID_MESH"},
@@ -37,7 +37,7 @@ constexpr StatusName kStatusNames[] = {
 };
 
 constexpr bool statuses_agree() {
-  for (const StatusName& status : kStatusNames)
+  for (const StatusName& status : status_names)
     if (status.value != static_cast<focal_status>(status.inside)) return false;
   return true;
 }
@@ -65,7 +65,7 @@ const char* focal_version_string(void) {
 }
 
 const char* focal_status_name(focal_status status) {
-  for (const StatusName& known : kStatusNames)
+  for (const StatusName& known : status_names)
     if (known.value == status) return known.name;
   return "FOCAL_ERROR_UNKNOWN";
 }

@@ -15,7 +15,7 @@
 namespace focal {
 
 // No struct will ever be this large, so a struct_size above it comes from memory that was never initialised.
-inline constexpr size_t kLargestStruct = 4096;
+inline constexpr size_t largest_struct = 4096;
 
 // What a caller must know of each struct. `first_size` is its size in the first release and stays.
 // Static members: const char* name; size_t first_size; T defaults().
@@ -47,7 +47,7 @@ T with_max_influences() {
 
 template <class T>
 void check_struct_size(size_t size) {
-  if (size >= StructTraits<T>::first_size && size <= kLargestStruct) return;
+  if (size >= StructTraits<T>::first_size && size <= largest_struct) return;
   const std::string name = StructTraits<T>::name;
   throw Error(Status::invalid_argument,
               name + ".struct_size is " + std::to_string(size) + ", at least " +

@@ -64,7 +64,7 @@ class Marcher {
   void tetrahedron(const std::array<int64_t, 4>& corners, bool positive) {
     std::array<int64_t, 4> inside, outside;
     int in = 0, out = 0;
-    // The parity of the reordering into inside, outside tells which way the triangle faces.
+    // The parity of the reordering into inside, outside decides which way the triangle faces.
     bool even = positive;
     for (int i = 0; i < 4; ++i) {
       if (lattice_.values[corners[i]] < 0) {

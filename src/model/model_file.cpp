@@ -137,6 +137,15 @@ void read_forests(ByteReader in, LandmarkModel& model) {
   in.expect_end();
 }
 
+// All landmarks of the model, or none with preset paper.
+int32_t read_landmark_count(ByteReader& in, const LandmarkModel& model) {
+  const auto all = static_cast<int32_t>(model.landmark_names.size());
+  const int32_t none_or_all = model.params.preset == Preset::default_preset ? all : 0;
+  const int32_t L = in.i32("landmark count", none_or_all, all);
+  if (L != 0 && L != all) in.fail("the landmark count is not the model's");
+  return L;
+}
+
 // --- CNST: statistics of the landmarks' distances and chirality; empty with preset paper
 
 void write_constellation(const LandmarkModel& model, ByteWriter& out) {
@@ -149,10 +158,7 @@ void write_constellation(const LandmarkModel& model, ByteWriter& out) {
 }
 
 void read_constellation(ByteReader in, LandmarkModel& model) {
-  const auto all = static_cast<int32_t>(model.landmark_names.size());
-  const int32_t none_or_all = model.params.preset == Preset::default_preset ? all : 0;
-  const int32_t L = in.i32("landmark count", none_or_all, all);
-  if (L != 0 && L != all) in.fail("the landmark count is not the model's");
+  const int32_t L = read_landmark_count(in, model);
   ConstellationStatistics& constellation = model.constellation;
   constellation.landmarks = L;
   const auto matrix = [&](const char* what, float least, float largest) -> RowMatrixf {
@@ -230,10 +236,7 @@ void write_calibration(const LandmarkModel& model, ByteWriter& out) {
 }
 
 void read_calibration(ByteReader in, LandmarkModel& model) {
-  const auto all = static_cast<int32_t>(model.landmark_names.size());
-  const int32_t none_or_all = model.params.preset == Preset::default_preset ? all : 0;
-  const int32_t L = in.i32("landmark count", none_or_all, all);
-  if (L != 0 && L != all) in.fail("the landmark count is not the model's");
+  const int32_t L = read_landmark_count(in, model);
   Calibration& calibration = model.calibration;
   calibration.typical_vote = in.f32s("typical vote", static_cast<size_t>(L), 0, any_number);
   in.i32("feature count", Calibration::feature_count, Calibration::feature_count);

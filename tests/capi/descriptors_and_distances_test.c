@@ -139,19 +139,20 @@ static void check_regression(focal_mesh* mesh, const shape* truth) {
     CHECK_OK(focal_model_analyse(model, mesh, NULL, NULL, &analysis));
     const uint64_t count = focal_analysis_sample_count(analysis);
     CHECK(count >= 100);
-    float *told = malloc(count * sizeof *told), *real = malloc(count * sizeof *real);
+    float *regressed = malloc(count * sizeof *regressed), *real = malloc(count * sizeof *real);
     CHECK_OK(focal_mesh_point_at_vertex(mesh, truth->marks[1], &place));
-    CHECK_OK(focal_model_regress(model, analysis, 1, &place, NULL, count, told, real));
+    CHECK_OK(focal_model_regress(model, analysis, 1, &place, NULL, count, regressed, real));
     double off = 0, mean = 0, spread = 0;
     for (uint64_t s = 0; s < count; ++s) mean += real[s] / (double)count;
-    for (uint64_t s = 0; s < count; ++s) off += pow(told[s] - real[s], 2), spread += pow(real[s] - mean, 2);
+    for (uint64_t s = 0; s < count; ++s)
+      off += pow(regressed[s] - real[s], 2), spread += pow(real[s] - mean, 2);
     printf("preset %d: regression leaves %.3f of the variance\n", preset, off / spread);
     CHECK(off < 0.9 * spread);
-    CHECK_REFUSED(focal_model_regress(model, analysis, 9, &place, NULL, count, told, real),
+    CHECK_REFUSED(focal_model_regress(model, analysis, 9, &place, NULL, count, regressed, real),
                   FOCAL_ERROR_INVALID_ARGUMENT, "landmarks");
-    CHECK_REFUSED(focal_model_regress(model, analysis, 1, &place, NULL, count + 1, told, real),
+    CHECK_REFUSED(focal_model_regress(model, analysis, 1, &place, NULL, count + 1, regressed, real),
                   FOCAL_ERROR_INVALID_ARGUMENT, "sample_count");
-    free(told);
+    free(regressed);
     free(real);
     focal_analysis_destroy(analysis);
     focal_model_destroy(model);

@@ -115,7 +115,7 @@ static void check_threads(void) {
   CHECK_OK(focal_context_destroy(context));
 }
 
-/* Each kind of handle is told by its name. */
+/* Errors name each kind of handle. */
 static void check_names(void) {
   const void* handle = NULL;
   focal_context* context = NULL;

@@ -227,7 +227,7 @@ static void check_detect_params(const focal_model* model) {
   focal_mesh_destroy(mesh);
 }
 
-/* No mesh is given, so that being told so says that the parameters were taken. */
+/* No mesh is given: an error about the mesh shows that the parameters were accepted. */
 static focal_status detect_nothing(const focal_model* model, const focal_detect_params* params) {
   focal_detection* detection = NULL;
   return focal_model_detect(model, NULL, params, NULL, &detection);

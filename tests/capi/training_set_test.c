@@ -104,10 +104,10 @@ static void replace(unsigned char* bytes, size_t size, const char* from, const c
 /* Three weights of the character are no weights. */
 static void spoil_weights(unsigned char* glb, size_t size) {
   const float weights[12] = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0},
-              spoiled[12] = {NAN, 0, 0, 0, 1, -1, 0, 0, 1, INFINITY};
+              corrupted[12] = {NAN, 0, 0, 0, 1, -1, 0, 0, 1, INFINITY};
   for (size_t i = 0; i + sizeof weights <= size; i += 4) {
     if (memcmp(glb + i, weights, sizeof weights) != 0) continue;
-    memcpy(glb + i, spoiled, sizeof spoiled);
+    memcpy(glb + i, corrupted, sizeof corrupted);
     return;
   }
   CHECK(!"the file has weights");
@@ -119,7 +119,7 @@ static void check_teachers(void) {
   unsigned char* glb = rigged_glb(8, 0, &size);
   focal_mesh* sound = rigged_mesh(glb, size);
   spoil_weights(glb, size);
-  focal_mesh* spoiled = rigged_mesh(glb, size);
+  focal_mesh* corrupted = rigged_mesh(glb, size);
   replace(glb, size, "\"bone.", "\"limb.");
   focal_mesh* foreign = rigged_mesh(glb, size);
   focal_training_set *set = NULL, *marks = shape_training_set(context, 8, 1);
@@ -132,7 +132,7 @@ static void check_teachers(void) {
   CHECK_OK(focal_training_set_add_rig(set, sound));
   CHECK_OK(focal_training_set_check(set));
   CHECK(focal_training_set_warning_count(set) == 0 && focal_training_set_warning(set, 0) == NULL);
-  CHECK_OK(focal_training_set_add_rig(set, spoiled));
+  CHECK_OK(focal_training_set_add_rig(set, corrupted));
   CHECK(focal_training_set_warning_count(set) == 0); /* until it is looked at again */
   CHECK_OK(focal_training_set_check(set));
   CHECK(focal_training_set_warning_count(set) == 1);
@@ -148,7 +148,7 @@ static void check_teachers(void) {
   CHECK(model == NULL);
   free(glb);
   focal_training_set_destroy(set), focal_training_set_destroy(marks);
-  focal_mesh_destroy(sound), focal_mesh_destroy(spoiled), focal_mesh_destroy(foreign);
+  focal_mesh_destroy(sound), focal_mesh_destroy(corrupted), focal_mesh_destroy(foreign);
 }
 
 static void check_marks(void) {

@@ -1,4 +1,4 @@
-// The joint choice finds a planted configuration among impostors, and tells it from its mirror image.
+// The joint choice finds a planted configuration among impostors, and distinguishes it from its mirror image.
 #include "constellation/constellation.h"
 
 #include <doctest/doctest.h>
@@ -174,7 +174,7 @@ TEST_CASE("choices that come near the best one are given too, if they are others
   const auto candidates =
       candidates_on(individual(mirror_lump, 50), options, std::vector<float>(2 * marks.size(), 0));
   ConstellationParams params;
-  params.chirality_weight = 0;  // nothing tells the two sides now
+  params.chirality_weight = 0;  // nothing distinguishes the two sides now
   const auto choices = choose_constellations(statistics, candidates, params, {});
   const auto differing = [&](size_t a, size_t b) {
     size_t count = 0;

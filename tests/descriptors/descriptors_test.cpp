@@ -219,7 +219,7 @@ TEST_CASE("no descriptor changes when the mesh is turned, moved and scaled, and 
   }
 }
 
-TEST_CASE("unique shape context tells a shape from its mirror image, a spin image does not") {
+TEST_CASE("unique shape context distinguishes a shape from its mirror image, a spin image does not") {
   TriangleMesh mesh = with_radius(sphere(4), lump);
   const Surface before(mesh);
   mesh.positions.col(0) *= -1;

@@ -95,7 +95,7 @@ TEST_CASE("SI-HKS is equal at mirror points, which is why left and right need ot
   CHECK(largest < 1e-5 * signature.maxCoeff());
 }
 
-TEST_CASE("SI-HKS tells the points of a lump apart, those of a sphere not") {
+TEST_CASE("SI-HKS distinguishes the points of a lump, but not those of a sphere") {
   const auto spread = [](const RowMatrix& signature) {
     return (signature.rowwise() - signature.colwise().mean()).rowwise().norm().mean() /
            signature.rowwise().norm().mean();

@@ -14,7 +14,7 @@
 #include "fixture.h"
 
 typedef struct tally {
-  long faults, refused, done_without, wrong, leaks, spoiled;
+  long faults, refused, done_without, wrong, leaks, corrupted;
 } tally;
 
 static const char* at_scenario = "";
@@ -57,7 +57,7 @@ static void fail_one(const scenario* what, const fixture* f, uint64_t expected, 
     complain("a leak", status);
   }
   if (whole && scenario_run_well(what, f) != expected) {
-    ++sum->spoiled;
+    ++sum->corrupted;
     complain("other results afterwards", status);
   }
 }
@@ -81,8 +81,8 @@ static tally fail_each(const scenario* what, const fixture* f, long most, long o
     }
   printf(
       "%-26s %7ld allocations, %7ld faults: %7ld out of memory, %4ld got by, %ld wrong, %ld leaks, %ld "
-      "spoiled\n",
-      what->name, count, sum.faults, sum.refused, sum.done_without, sum.wrong, sum.leaks, sum.spoiled);
+      "corrupted\n",
+      what->name, count, sum.faults, sum.refused, sum.done_without, sum.wrong, sum.leaks, sum.corrupted);
   fflush(stdout);
   return sum;
 }
@@ -125,13 +125,13 @@ int main(int argc, char** argv) {
     if (params.thread_count > 1) fail_threads(&scenarios[i], &f, params.thread_count, &one);
     ++used;
     all.faults += one.faults, all.refused += one.refused, all.done_without += one.done_without;
-    all.wrong += one.wrong, all.leaks += one.leaks, all.spoiled += one.spoiled;
+    all.wrong += one.wrong, all.leaks += one.leaks, all.corrupted += one.corrupted;
   }
   fixture_destroy(&f);
   printf(
       "%zu scenarios, %ld faults: %ld out of memory, %ld got by with the same result, %ld other answers, 0 "
       "aborts, "
-      "%ld leaks, %ld spoiled handles\n",
-      used, all.faults, all.refused, all.done_without, all.wrong, all.leaks, all.spoiled);
-  return used == 0 || all.wrong || all.leaks || all.spoiled;
+      "%ld leaks, %ld corrupted handles\n",
+      used, all.faults, all.refused, all.done_without, all.wrong, all.leaks, all.corrupted);
+  return used == 0 || all.wrong || all.leaks || all.corrupted;
 }

@@ -141,7 +141,7 @@ static focal_status run_train_rig(const fixture* f, uint64_t* digest) {
   return train(f->rigs, FOCAL_PRESET_DEFAULT, digest);
 }
 
-/* With what judges the places: cross-fitting on spoiled copies. */
+/* With what judges the places: cross-fitting on corrupted copies. */
 static focal_status run_train_confidence(const fixture* f, uint64_t* digest) {
   focal_model* model = NULL;
   focal_train_params params = tiny_training(FOCAL_PRESET_DEFAULT);

@@ -71,7 +71,7 @@ struct World {
   }
 };
 
-focal_status told(focal_status status) {
+focal_status answered(focal_status status) {
   if (status == FOCAL_OK) return status;
   fuzz::insist(status != FOCAL_ERROR_INTERNAL, focal_last_error());
   fuzz::insist(std::strcmp(focal_status_name(status), "FOCAL_ERROR_UNKNOWN") != 0, "every status has a name");
@@ -79,13 +79,13 @@ focal_status told(focal_status status) {
   return status;
 }
 
-// A struct of parameters: absent, as init fills it, or spoiled somewhere.
+// A struct of parameters: absent, as init fills it, or corrupted somewhere.
 template <class Params>
 const Params* params_of(World& world, Params& params, focal_status (*init)(Params*, size_t)) {
   const uint32_t b = world.choose.byte();
   if (b % 4 == 0) return nullptr;
   const size_t size = b % 16 == 1 ? std::min<size_t>(b, sizeof params) : sizeof params;
-  if (told(init(&params, size)) != FOCAL_OK) return nullptr;
+  if (answered(init(&params, size)) != FOCAL_OK) return nullptr;
   return &params;
 }
 
@@ -143,10 +143,10 @@ void make_mesh(World& world) {
       std::vector<uint32_t> indices(world.choose.below(200));
       for (uint32_t& i : indices) i = world.choose.below(64);
       focal_mesh_desc desc;
-      told(focal_mesh_desc_init(&desc, sizeof desc));
+      answered(focal_mesh_desc_init(&desc, sizeof desc));
       desc.positions = positions.data(), desc.vertex_count = positions.size() / 3;
       desc.indices = world.choose.below(16) ? indices.data() : nullptr, desc.index_count = indices.size();
-      told(focal_mesh_create(context, world.choose.below(16) ? &desc : nullptr, given, &mesh));
+      answered(focal_mesh_create(context, world.choose.below(16) ? &desc : nullptr, given, &mesh));
       break;
     }
     case 1: {  // a file with a few bytes changed
@@ -154,14 +154,14 @@ void make_mesh(World& world) {
       for (uint32_t n = world.choose.below(3); n > 0; --n)
         file[(world.choose.byte() * 256 + world.choose.byte()) % file.size()] =
             static_cast<unsigned char>(world.choose.byte());
-      told(focal_mesh_load_gltf_memory(context, file.data(), file.size() - world.choose.below(3), given,
-                                       &mesh));
+      answered(focal_mesh_load_gltf_memory(context, file.data(), file.size() - world.choose.below(3), given,
+                                           &mesh));
       break;
     }
     default: {  // a good one
       shape body = shape_create(6, static_cast<float>(world.choose.byte()) / 1000);
       const focal_mesh_desc desc = shape_desc(&body);
-      told(focal_mesh_create(context, &desc, given, &mesh));
+      answered(focal_mesh_create(context, &desc, given, &mesh));
       shape_destroy(&body);
     }
   }
@@ -173,16 +173,17 @@ void look_at_mesh(World& world) {
   focal_mesh_info info;
   focal_surface_point point{world.choose.byte(), {static_cast<float>(world.choose.number()), 0.5F, 0.25F}};
   float position[3];
-  if (told(focal_mesh_info_init(&info, sizeof info)) == FOCAL_OK &&
-      told(focal_mesh_get_info(mesh, &info)) == FOCAL_OK) {
+  if (answered(focal_mesh_info_init(&info, sizeof info)) == FOCAL_OK &&
+      answered(focal_mesh_get_info(mesh, &info)) == FOCAL_OK) {
     fuzz::insist(std::isfinite(info.surface_area) && info.surface_area > 0, "a mesh has an area");
     fuzz::insist(focal_mesh_positions(mesh) && focal_mesh_triangles(mesh), "a mesh has its arrays");
     for (uint32_t i = 0; i < info.warning_count; ++i)
       fuzz::insist(focal_mesh_warning(mesh, i) != nullptr, "warnings exist");
   }
-  told(focal_mesh_position_of(mesh, world.choose.below(8) ? &point : nullptr, position));
-  if (told(focal_mesh_point_at_vertex(mesh, world.choose.byte(), &point)) == FOCAL_OK)
-    fuzz::insist(told(focal_mesh_position_of(mesh, &point, position)) == FOCAL_OK, "a vertex has a place");
+  answered(focal_mesh_position_of(mesh, world.choose.below(8) ? &point : nullptr, position));
+  if (answered(focal_mesh_point_at_vertex(mesh, world.choose.byte(), &point)) == FOCAL_OK)
+    fuzz::insist(answered(focal_mesh_position_of(mesh, &point, position)) == FOCAL_OK,
+                 "a vertex has a place");
 }
 
 const char* some_template(World& world) {
@@ -206,16 +207,16 @@ void fill_set(World& world) {
   const uint64_t count = world.choose.below(8) ? uint32_t{SHAPE_MARKS} : world.choose.below(5);
   switch (world.choose.below(5)) {
     case 4:
-      told(focal_training_set_set_skeleton(set, some_template(world)));
+      answered(focal_training_set_set_skeleton(set, some_template(world)));
       break;
     case 0:
-      told(focal_training_set_add(set, mesh, points, count));
+      answered(focal_training_set_add(set, mesh, points, count));
       break;
     case 1:
-      told(focal_training_set_add_rig(set, mesh));
+      answered(focal_training_set_add_rig(set, mesh));
       break;
     default:
-      told(focal_training_set_add_vertices(set, mesh, vertices, count));
+      answered(focal_training_set_add_vertices(set, mesh, vertices, count));
   }
   focal_training_set_landmark_count(set), focal_training_set_mesh_count(set);
 }
@@ -224,17 +225,17 @@ void train(World& world) {
   if (world.trainings++ || world.choose.below(4)) return;  // the slow one
   focal_model* model = nullptr;
   focal_train_params params;
-  told(focal_train_params_init(&params, sizeof params));
+  answered(focal_train_params_init(&params, sizeof params));
   if (world.choose.below(16) == 0)
-    told(focal_train_params_set_preset(&params, static_cast<focal_preset>(world.choose.below(3))));
+    answered(focal_train_params_set_preset(&params, static_cast<focal_preset>(world.choose.below(3))));
   params.learn_confidence = world.choose.below(8) == 0,
   params.tree_count = static_cast<int32_t>(world.choose.below(4));
   params.eigenpair_count =
       static_cast<int32_t>(world.choose.below(8) ? 8 + world.choose.below(16) : world.choose.byte() * 10);
   params.max_samples_per_shape = static_cast<int32_t>(world.choose.below(60));
   params.sampling_rate = world.choose.below(8) ? 1 : world.choose.number();
-  told(focal_model_train(world.pick<focal_training_set>(sets), &params, world.pick<focal_task>(tasks),
-                         &model));
+  answered(focal_model_train(world.pick<focal_training_set>(sets), &params, world.pick<focal_task>(tasks),
+                             &model));
   world.keep(models, model);
 }
 
@@ -243,19 +244,19 @@ void load_or_save(World& world) {
   focal_blob* blob = nullptr;
   focal_model_info info;
   if (world.choose.below(3) == 0) {
-    if (told(focal_model_save_memory(world.pick<focal_model>(models), &blob)) != FOCAL_OK) return;
+    if (answered(focal_model_save_memory(world.pick<focal_model>(models), &blob)) != FOCAL_OK) return;
     world.keep(blobs, blob);
-    told(focal_model_load_memory(world.pick<focal_context>(contexts), focal_blob_data(blob),
-                                 focal_blob_size(blob), &model));
+    answered(focal_model_load_memory(world.pick<focal_context>(contexts), focal_blob_data(blob),
+                                     focal_blob_size(blob), &model));
   } else {
     auto file = model_bytes();
     if (world.choose.below(4) == 0)
       file[world.choose.byte() % file.size()] ^= static_cast<unsigned char>(world.choose.byte());
-    told(focal_model_load_memory(world.pick<focal_context>(contexts), file.data(),
-                                 file.size() - world.choose.below(2), &model));
+    answered(focal_model_load_memory(world.pick<focal_context>(contexts), file.data(),
+                                     file.size() - world.choose.below(2), &model));
   }
   world.keep(models, model);
-  told(focal_model_info_init(&info, sizeof info));
+  answered(focal_model_info_init(&info, sizeof info));
   if (focal_model_get_info(world.pick<focal_model>(models), &info) == FOCAL_OK)
     fuzz::insist(info.landmark_count > 0, "a model has landmarks");
   focal_model_landmark_name(world.pick<focal_model>(models), world.choose.byte());
@@ -286,11 +287,12 @@ void detect(World& world) {
   const auto* mesh = world.pick<focal_mesh>(meshes);
   focal_task* task = world.pick<focal_task>(tasks);
   if (world.choose.below(3)) {
-    told(focal_model_detect(model, mesh, given, task, &detection));
+    answered(focal_model_detect(model, mesh, given, task, &detection));
   } else {
-    told(focal_model_analyse(model, mesh, given, task, &analysis));
+    answered(focal_model_analyse(model, mesh, given, task, &analysis));
     world.keep(analyses, analysis);
-    told(focal_model_detect_analysis(model, world.pick<focal_analysis>(analyses), given, task, &detection));
+    answered(
+        focal_model_detect_analysis(model, world.pick<focal_analysis>(analyses), given, task, &detection));
   }
   world.keep(detections, detection);
 }
@@ -299,39 +301,42 @@ void look_at_detection(World& world) {
   const auto* detection = world.pick<focal_detection>(detections);
   focal_landmark landmark;
   focal_detection_info info;
-  told(focal_landmark_init(&landmark, sizeof landmark)), told(focal_detection_info_init(&info, sizeof info));
-  if (told(focal_detection_get_info(detection, &info)) != FOCAL_OK) return;
+  answered(focal_landmark_init(&landmark, sizeof landmark)),
+      answered(focal_detection_info_init(&info, sizeof info));
+  if (answered(focal_detection_get_info(detection, &info)) != FOCAL_OK) return;
   for (uint32_t i = 0; i < info.landmark_count; ++i) {
-    fuzz::insist(told(focal_detection_get_landmark(detection, i, &landmark)) == FOCAL_OK, "landmarks exist");
+    fuzz::insist(answered(focal_detection_get_landmark(detection, i, &landmark)) == FOCAL_OK,
+                 "landmarks exist");
     fuzz::insist(landmark.confidence >= 0 && landmark.confidence <= 1, "confidence is a probability");
     if (landmark.point.triangle == FOCAL_NO_TRIANGLE) continue;
     fuzz::insist(landmark.point.triangle < info.triangle_count && landmark.vertex < info.vertex_count,
                  "places exist");
     for (const float x : landmark.position) fuzz::insist(std::isfinite(x), "positions are finite");
   }
-  told(focal_detection_get_landmark(detection, world.choose.byte(), &landmark));
+  answered(focal_detection_get_landmark(detection, world.choose.byte(), &landmark));
   const uint64_t count = world.choose.below(8) ? info.vertex_count : world.choose.byte();
   std::vector<float> values(std::max<uint64_t>(count, 1));
   std::vector<int32_t> labels(info.triangle_count);
   const uint32_t call = world.choose.below(4), which = world.choose.below(5);
-  if (call == 0) told(focal_detection_votes(detection, which, count, values.data()));
-  if (call == 1) told(focal_detection_distances(detection, which, count, values.data()));
-  if (call == 2) told(focal_detection_region(detection, which, world.choose.number(), count, values.data()));
+  if (call == 0) answered(focal_detection_votes(detection, which, count, values.data()));
+  if (call == 1) answered(focal_detection_distances(detection, which, count, values.data()));
+  if (call == 2)
+    answered(focal_detection_region(detection, which, world.choose.number(), count, values.data()));
   if (call == 3)
-    told(focal_detection_segment(detection, static_cast<focal_segmentation>(which),
-                                 world.pick<focal_task>(tasks), info.triangle_count, labels.data()));
+    answered(focal_detection_segment(detection, static_cast<focal_segmentation>(which),
+                                     world.pick<focal_task>(tasks), info.triangle_count, labels.data()));
 }
 
 void use_detection(World& world) {
   if (world.choose.below(2)) {
     focal_correspondence* map = nullptr;
-    told(focal_correspondence_create(world.pick<focal_detection>(detections),
-                                     world.pick<focal_detection>(detections), world.pick<focal_task>(tasks),
-                                     &map));
+    answered(focal_correspondence_create(world.pick<focal_detection>(detections),
+                                         world.pick<focal_detection>(detections),
+                                         world.pick<focal_task>(tasks), &map));
     world.keep(maps, map);
     std::vector<focal_surface_point> points(200);
-    told(focal_correspondence_points(map, world.choose.below(2) ? 74 : world.choose.below(200),
-                                     points.data()));
+    answered(focal_correspondence_points(map, world.choose.below(2) ? 74 : world.choose.below(200),
+                                         points.data()));
     return;
   }
   focal_skeleton* skeleton = nullptr;
@@ -345,30 +350,30 @@ void use_detection(World& world) {
     params.max_influences = static_cast<int32_t>(world.choose.below(10));
     params.skeleton_template = some_template(world);
   }
-  told(focal_skeleton_create(world.pick<focal_detection>(detections), given, world.pick<focal_task>(tasks),
-                             &skeleton));
+  answered(focal_skeleton_create(world.pick<focal_detection>(detections), given,
+                                 world.pick<focal_task>(tasks), &skeleton));
   world.keep(skeletons, skeleton);
   focal_joint joint;
-  told(focal_joint_init(&joint, sizeof joint));
-  told(focal_skeleton_get_joint(world.pick<focal_skeleton>(skeletons), world.choose.below(4), &joint));
+  answered(focal_joint_init(&joint, sizeof joint));
+  answered(focal_skeleton_get_joint(world.pick<focal_skeleton>(skeletons), world.choose.below(4), &joint));
 }
 
 void handle_tasks(World& world) {
   focal_task* made = nullptr;
   const uint32_t call = world.choose.below(4);
-  if (call == 0) return told(focal_task_create(&made)), world.keep(tasks, made);
+  if (call == 0) return answered(focal_task_create(&made)), world.keep(tasks, made);
   auto* task = world.pick<focal_task>(tasks);
-  if (call == 1) told(focal_task_cancel(task));
-  if (call == 2) told(focal_task_reset(task));
+  if (call == 1) answered(focal_task_cancel(task));
+  if (call == 2) answered(focal_task_reset(task));
   if (call == 3) focal_task_progress(task), focal_task_stage(task);
 }
 
 void make_set(World& world) {
   focal_training_set* set = nullptr;
   const char* names[SHAPE_MARKS] = {"nose", "hand.L", world.choose.below(8) ? "tail" : "nose"};
-  told(focal_training_set_create(world.pick<focal_context>(contexts), world.choose.below(8) ? names : nullptr,
-                                 world.choose.below(8) ? uint32_t{SHAPE_MARKS} : world.choose.below(4),
-                                 &set));
+  answered(
+      focal_training_set_create(world.pick<focal_context>(contexts), world.choose.below(8) ? names : nullptr,
+                                world.choose.below(8) ? uint32_t{SHAPE_MARKS} : world.choose.below(4), &set));
   world.keep(sets, set);
 }
 
@@ -381,12 +386,12 @@ void destroy_one(World& world) {
 void start(World& world) {
   focal_context* context = nullptr;
   focal_context_params params;
-  told(focal_context_params_init(&params, sizeof params));
+  answered(focal_context_params_init(&params, sizeof params));
   params.thread_count = 1;
-  fuzz::insist(told(focal_context_create(&params, &context)) == FOCAL_OK, "a context is made");
+  fuzz::insist(answered(focal_context_create(&params, &context)) == FOCAL_OK, "a context is made");
   world.keep(contexts, context);
   focal_model* model = nullptr;
-  told(focal_model_load_memory(context, model_bytes().data(), model_bytes().size(), &model));
+  answered(focal_model_load_memory(context, model_bytes().data(), model_bytes().size(), &model));
   world.keep(models, model), world.keep(meshes, shape_mesh(context, 6, 0.02F));
   world.keep(sets, shape_training_set(context, 6, 2));
 }

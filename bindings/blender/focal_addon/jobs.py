@@ -80,7 +80,7 @@ class Job:
         except (Unusable, TemplateError, *FAILURES) as error:
             if not self.cancelled:
                 self.failure = message_of(error)
-        except Exception as error:  # a mistake of ours: the console tells where, the user that it happened
+        except Exception as error:  # a bug of the add-on: the console shows where, the user sees that it happened
             import traceback
             traceback.print_exc()
             self.failure = f"{type(error).__name__}: {error}"

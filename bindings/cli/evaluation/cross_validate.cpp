@@ -120,10 +120,7 @@ void cross_validate(const CrossValidationOptions& options) {
   add_summary(report, summary);
   if (options.json) print_json(report);
   if (!options.prints_text()) return;
-  print_landmarks(std::cout, outcomes);
-  std::cout << "\n";
-  print_meshes(std::cout, outcomes);
-  print_summary(std::cout, summary);
+  print_outcomes(std::cout, outcomes, summary);
 }
 
 }  // namespace

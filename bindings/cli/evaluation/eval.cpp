@@ -86,10 +86,7 @@ void evaluate(const EvalOptions& options) {
   if (page) write_file_atomically(options.report, page->html(report));
   if (options.json) print_json(report);
   if (!options.prints_text()) return;
-  print_landmarks(std::cout, outcomes);
-  std::cout << "\n";
-  print_meshes(std::cout, outcomes);
-  print_summary(std::cout, summary);
+  print_outcomes(std::cout, outcomes, summary);
   std::cout << "By preset " << report["preset"].get<std::string>() << ", descriptor "
             << report["descriptor"].get<std::string>() << ", distance "
             << report["distance"].get<std::string>() << ".\n";

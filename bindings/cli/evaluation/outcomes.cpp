@@ -171,6 +171,8 @@ void add_summary(Json& document, const Summary& summary) {
   document["seconds_median"] = summary.seconds_median;
 }
 
+namespace {
+
 void print_meshes(std::ostream& out, std::span<const MeshOutcome> meshes) {
   std::vector<std::vector<std::string>> rows = {
       {"mesh", "vertices", "seconds", "mean", "median", "worst", "where", "swapped", "flipped", "fit"}};
@@ -208,6 +210,15 @@ void print_summary(std::ostream& out, const Summary& summary) {
                {"Confidence 0.9 or more, within 4", sure_text(summary.calibration)},
                {"Category fit, median", percent_text(summary.category_fit_median, 0)},
                {"Seconds a mesh, median", fixed_text(summary.seconds_median, 2)}});
+}
+
+}  // namespace
+
+void print_outcomes(std::ostream& out, std::span<const MeshOutcome> meshes, const Summary& summary) {
+  print_landmarks(out, meshes);
+  out << "\n";
+  print_meshes(out, meshes);
+  print_summary(out, summary);
 }
 
 }  // namespace focal_cli

@@ -36,8 +36,7 @@ Json mesh_json(const MeshOutcome& mesh);
 Json landmarks_json(std::span<const MeshOutcome> meshes);
 void add_summary(Json& document, const Summary& summary);
 
-void print_meshes(std::ostream& out, std::span<const MeshOutcome> meshes);
-void print_landmarks(std::ostream& out, std::span<const MeshOutcome> meshes);
-void print_summary(std::ostream& out, const Summary& summary);
+// As tables: the landmarks, the meshes, all together.
+void print_outcomes(std::ostream& out, std::span<const MeshOutcome> meshes, const Summary& summary);
 
 }  // namespace focal_cli

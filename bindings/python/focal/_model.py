@@ -207,10 +207,10 @@ class Model(Handle):
         given, handle = handle_of(analysis, Analysis, "analysis"), self._handle
         index, place = numbered(landmark, self.landmark_names), marked_point(analysis._mesh, truth, "truth")
         count = library().focal_analysis_sample_count(given)
-        told, true = empty("f", count), empty("f", count)
+        regressed, true = empty("f", count), empty("f", count)
         run(lambda task_handle: call("focal_model_regress", handle, given, index, ctypes.byref(place), task_handle,
-                                     count, told.pointer, true.pointer), task, on_progress)
-        return result(told.owner), result(true.owner)
+                                     count, regressed.pointer, true.pointer), task, on_progress)
+        return result(regressed.owner), result(true.owner)
 
     def detect_many(self, meshes: Sequence[Mesh], *, quality: _abi.Quality | str | None = None,
                     orientation: _abi.Orientation | str | None = None, sampling_rate: float | None = None, max_samples: int | None = None,

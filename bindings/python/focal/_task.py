@@ -105,13 +105,13 @@ class _Watched:
             del error  # its traceback holds this frame
         return self._result
 
-    def _watch(self, tell: Progress) -> None:
-        told = None
+    def _watch(self, report: Progress) -> None:
+        reported = None
         while not self._done.wait(POLL_SECONDS):
             state = self._task.progress, self._task.stage
-            if state != told:
-                tell(*state)
-                told = state
+            if state != reported:
+                report(*state)
+                reported = state
         self._thread.join()
         if self._error is None:
-            tell(1.0, self._task.stage)
+            report(1.0, self._task.stage)
