@@ -3,7 +3,7 @@
 # usage: bootstrap.sh [ci]      what building and testing needs; with ci also what .ci/run needs
 set -eu
 packages="g++ cmake ninja-build pkgconf libeigen3-dev libspectra-dev libtinygltf-dev nlohmann-json3-dev
-  libmeshoptimizer-dev libcli11-dev doctest-dev"
+  libcli11-dev doctest-dev"
 optional=  # tests that need them are skipped without
 if [ "${1:-}" = ci ]; then
   packages="$packages abigail-tools chromium clang clang-format-14 libclang-rt-dev valgrind"
@@ -47,6 +47,22 @@ install_packages() {  # PACKAGE...
   [ $# -eq 0 ] || install_packages "$@" || echo "bootstrap: could not install $*; tests that need them are skipped"
 }
 echo "bootstrap: all packages needed are installed"
+
+# The sources of meshoptimizer, which cmake/FocalMeshoptimizer.cmake compiles in, from the mirror that apt uses: its source package lies
+# beside the binary one. Where the mirror has another version, CMake downloads them from Debian's.
+fetch_meshoptimizer() {
+  kept=$(dirname "$0")/../build/third_party archive=meshoptimizer_0.18+dfsg.orig.tar.xz
+  sum=881ea2cc687f1fef5ce70484e0ca6504e13856dd856677749f3763bc685956d3
+  [ -f "$kept/$archive" ] && echo "$sum  $kept/$archive" | sha256sum --check --quiet - 2> /dev/null && return
+  mkdir -p "$kept"
+  mirror=$(apt-get download --print-uris libmeshoptimizer-dev 2> /dev/null | sed "s#^'\(.*\)/[^/]*' .*#\1#")
+  echo "bootstrap: fetching the sources of meshoptimizer into build/third_party"
+  /usr/lib/apt/apt-helper download-file "$mirror/$archive" "$kept/$archive" "SHA256:$sum" > /dev/null 2>&1 || {
+    rm -f "$kept/$archive" "$kept/$archive.FAILED"
+    echo "bootstrap: '$mirror' has no $archive, so CMake will download it"
+  }
+}
+fetch_meshoptimizer
 
 # What tests/viewers judges files with; without it that test is skipped.
 install_viewers() {

@@ -81,8 +81,4 @@ bool take_memory(int64_t bytes) {
 
 void give_memory(int64_t bytes) { held.fetch_sub(bytes, std::memory_order_relaxed); }
 
-ExternalAllocation::ExternalAllocation(int64_t bytes) : bytes_(bytes) {
-  if (!take_memory(bytes)) throw std::bad_alloc();
-}
-
 }  // namespace focal

@@ -46,17 +46,4 @@ class ScopedMemoryBudget {
 bool take_memory(int64_t bytes);
 void give_memory(int64_t bytes);
 
-// Counts memory that another library allocates for us. Throws std::bad_alloc when the budget does not allow
-// it.
-class ExternalAllocation {
- public:
-  explicit ExternalAllocation(int64_t bytes);
-  ~ExternalAllocation() { give_memory(bytes_); }
-  ExternalAllocation(const ExternalAllocation&) = delete;
-  ExternalAllocation& operator=(const ExternalAllocation&) = delete;
-
- private:
-  int64_t bytes_;
-};
-
 }  // namespace focal

@@ -5,8 +5,6 @@
 #include <limits>
 #include <new>
 
-#include "base/memory_budget.h"
-
 namespace focal {
 
 std::vector<unsigned> collapse_edges(
@@ -14,16 +12,14 @@ std::vector<unsigned> collapse_edges(
     const Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>& positions, size_t wanted,
     unsigned options) {
   std::vector<unsigned> kept(indices.size());
-  // meshoptimizer 0.18 allocates at most 94 bytes per vertex, 10 of them temporarily, and 24 per index.
-  const ExternalAllocation scratch(104 * positions.rows() + 24 * static_cast<int64_t>(indices.size()));
   try {
     kept.resize(meshopt_simplify(kept.data(), indices.data(), indices.size(), positions.data(),
                                  positions.rows(), 3 * sizeof(float), 3 * wanted,
                                  std::numeric_limits<float>::max(), options, nullptr));
   } catch (const std::bad_alloc&) {
-    // The exception comes from meshoptimizer's own C++ runtime. In an exception_ptr it would be freed by our
-    // runtime, which terminates the process when the exception was allocated from the other runtime's
-    // emergency pool.
+    // With FOCAL_MESHOPTIMIZER=PACKAGE the exception comes from another C++ runtime. In an exception_ptr it
+    // would be freed by our runtime, which terminates the process when the exception was allocated from the
+    // other runtime's emergency pool.
     throw std::bad_alloc();
   }
   return kept;

@@ -15,7 +15,7 @@ enum {
   OWN = 64 << 10 /* bytes: what the C library and the test itself allocate meanwhile */
 };
 
-static const double enough = 1.05; /* of the peak: what meshoptimizer takes is counted a little too high */
+static const double enough = 1.05; /* of the peak: threads overlap in other ways each time */
 
 typedef struct tally {
   long runs, refused, kept, beyond, wrong;
