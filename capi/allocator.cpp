@@ -14,14 +14,20 @@ extern "C" {
 void* __real_malloc(size_t size);
 void* __real_calloc(size_t count, size_t size);
 void* __real_realloc(void* block, size_t size);
+#if !defined(_WIN32)
 void* __real_memalign(size_t alignment, size_t size);
+#endif
 void __real_free(void* block);
 
 }  // extern "C"
 
 namespace {
 
+#if defined(_WIN32)
+int64_t bytes_of(void* block) { return static_cast<int64_t>(_msize(block)); }
+#else
 int64_t bytes_of(void* block) { return static_cast<int64_t>(malloc_usable_size(block)); }
+#endif
 
 // Asked for before it is there, so that the budget is not exceeded for a moment either.
 template <class Allocate>
@@ -50,6 +56,7 @@ void* __wrap_calloc(size_t count, size_t size) {
   return taken(bytes, [&] { return __real_calloc(count, size); });
 }
 
+#if !defined(_WIN32)  // there, aligned blocks have functions and a free of their own, which stay uncounted
 void* __wrap_memalign(size_t alignment, size_t size) {
   return taken(size, [&] { return __real_memalign(alignment, size); });
 }
@@ -62,6 +69,7 @@ int __wrap_posix_memalign(void** block, size_t alignment, size_t size) {
   *block = made;
   return 0;
 }
+#endif
 
 void __wrap_free(void* block) {
   if (!block) return;

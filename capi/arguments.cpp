@@ -5,6 +5,8 @@
 #include <iterator>
 #include <limits>
 
+#include "base/atomic_file.h"
+
 namespace focal {
 namespace {
 
@@ -33,7 +35,9 @@ std::filesystem::path path_of(const char* path) {
   if (!path || !*path)
     throw Error(Status::invalid_argument, path ? "the path is empty" : "the path is NULL",
                 "pass a file's path");
-  return std::filesystem::path(reinterpret_cast<const char8_t*>(path));
+  auto found = path_from_text(path);
+  if (!found) throw Error(Status::invalid_argument, "the path is not UTF-8", "pass paths in UTF-8");
+  return *std::move(found);
 }
 
 std::span<const std::byte> bytes_of(const void* data, uint64_t size) {

@@ -20,7 +20,7 @@ using Entries = std::unordered_map<uintptr_t, Entry>;
 constexpr uintptr_t first_tag = sizeof(uintptr_t) == 8 ? static_cast<uintptr_t>(0xF0CA'0000'0000'0001u) : 1;
 
 // Trivially destructible, so that a handle destroyed while the process ends is still answered.
-constinit std::mutex table_mutex;
+std::mutex table_mutex;
 constinit Entries* entries = nullptr;
 constinit uintptr_t next_tag = first_tag;
 

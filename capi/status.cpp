@@ -1,9 +1,6 @@
 // Version, status names and the last error; and the proof that both sides of the border count alike.
-#if defined(__unix__) || defined(__APPLE__)
-#include <sys/resource.h>
-#endif
-
 #include "base/error.h"
+#include "base/system.h"
 #include "boundary.h"
 #include "landmarks/detect.h"
 
@@ -72,16 +69,4 @@ const char* focal_status_name(focal_status status) {
 
 const char* focal_last_error(void) { return last_error(); }
 
-uint64_t focal_peak_memory_bytes(void) {
-#if defined(__unix__) || defined(__APPLE__)
-  rusage usage{};
-  if (getrusage(RUSAGE_SELF, &usage) != 0) return 0;
-#if defined(__APPLE__)
-  return static_cast<uint64_t>(usage.ru_maxrss);
-#else
-  return static_cast<uint64_t>(usage.ru_maxrss) * 1024;
-#endif
-#else
-  return 0;
-#endif
-}
+uint64_t focal_peak_memory_bytes(void) { return peak_memory_bytes(); }

@@ -20,6 +20,13 @@ if(FOCAL_ARCH AND CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
     target_compile_options(focal_flags INTERFACE -march=${FOCAL_ARCH})
   endif()
 endif()
+if(WIN32)
+  target_compile_definitions(focal_flags INTERFACE NOMINMAX=1 WIN32_LEAN_AND_MEAN=1)  # of windows.h
+endif()
+if(MINGW)
+  # Programs and the library stand alone: no DLL of the compiler beside them.
+  target_link_options(focal_flags INTERFACE -static)
+endif()
 add_library(focal_sanitize INTERFACE)  # of programs in C too, that call a library that is watched
 if(FOCAL_SANITIZE)
   set(sanitize -fsanitize=${FOCAL_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <numbers>
 #include <set>
 #include <utility>
 #include <vector>
@@ -76,7 +77,8 @@ inline focal::TriangleMesh moebius_strip(int columns, int rows) {
   mesh.triangles.resize(2 * columns * rows, 3);
   for (int i = 0; i < columns; ++i)
     for (int j = 0; j <= rows; ++j) {
-      const double along = 2 * M_PI * i / columns, width = 0.6 * (static_cast<double>(j) / rows - 0.5);
+      const double along = 2 * std::numbers::pi * i / columns,
+                   width = 0.6 * (static_cast<double>(j) / rows - 0.5);
       const double r = 1 + width * std::cos(along / 2);
       mesh.positions.row(i * (rows + 1) + j) << r * std::cos(along), r * std::sin(along),
           width * std::sin(along / 2);
@@ -99,7 +101,7 @@ inline focal::TriangleMesh book(int half) {
   mesh.positions.resize(side + 3 * outer, 3);
   mesh.triangles.resize(3 * m, 3);
   for (int sheet = 0; sheet < 3; ++sheet) {
-    const double turn = 2 * M_PI * sheet / 3;
+    const double turn = 2 * std::numbers::pi * sheet / 3;
     const auto number = [&](int v) {  // the first column is the spine
       const int x = v % side, y = v / side;
       return x == 0 ? y : side + sheet * outer + y * (side - 1) + x - 1;

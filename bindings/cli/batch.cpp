@@ -9,6 +9,7 @@
 #include "models.h"
 #include "output.h"
 #include "parameters.h"
+#include "paths.h"
 #include "progress.h"
 #include "text_table.h"
 #include "verdict_text.h"
@@ -41,9 +42,9 @@ Found files_in(const std::string& folder, const std::string& shard) {
   std::error_code error;
   std::vector<fs::path> files;
   Found found;
-  for (const auto& entry : fs::directory_iterator(folder, error))
+  for (const auto& entry : fs::directory_iterator(path_of(folder), error))
     if (entry.is_regular_file())
-      (is_gltf(entry.path().string()) ? files : found.others).push_back(entry.path());
+      (is_gltf(text_of(entry.path())) ? files : found.others).push_back(entry.path());
   if (error) throw CommandError("cannot read the folder " + folder, error.message());
   if (files.empty()) throw CommandError("no .glb, .gltf or .vrm in " + folder, "pass a folder with meshes");
   std::sort(files.begin(), files.end());
@@ -56,7 +57,7 @@ Found files_in(const std::string& folder, const std::string& shard) {
 // The mesh's own file with landmarks, and with a skeleton if asked for.
 Json process(const Context& context, const focal_model* model, const fs::path& file, const fs::path& target,
              const BatchOptions& options, focal_task* task) {
-  const Mesh mesh = load_mesh(context.get(), file.string(), options);
+  const Mesh mesh = load_mesh(context.get(), text_of(file), options);
   auto params = detect_params_of(options, options);
   params.keep_votes = 0;
   const auto detection = owned<Detection>(focal_model_detect, model, mesh.get(), &params, task);
@@ -70,9 +71,9 @@ Json process(const Context& context, const focal_model* model, const fs::path& f
       entry["status"] = "failed", entry["error"] = "the verdict on its rig",
       entry["hint"] = verdict_hint(verdict);
     if (!verdict.failed() || options.keep_failed)
-      check(focal_skeleton_write_gltf(skeleton.get(), target.string().c_str()));
+      check(focal_skeleton_write_gltf(skeleton.get(), text_of(target).c_str()));
   } else {
-    check(focal_detection_write_gltf(detection.get(), target.string().c_str()));
+    check(focal_detection_write_gltf(detection.get(), text_of(target).c_str()));
   }
   auto info = initialised(focal_detection_info_init);
   check(focal_detection_get_info(detection.get(), &info));
@@ -103,7 +104,7 @@ void print_report(const BatchOptions& options, const Json& list, const std::vect
   const size_t done = list.size() - failed - kept;
   if (options.json) {
     Json skipped = Json::array();
-    for (const fs::path& other : others) skipped.push_back(other.string());
+    for (const fs::path& other : others) skipped.push_back(text_of(other));
     Json report = {
         {"meshes", list}, {"done", done}, {"kept", kept}, {"failed", failed}, {"skipped", skipped}};
     if (options.rig) report["verdicts"] = verdicts;
@@ -120,7 +121,7 @@ void print_report(const BatchOptions& options, const Json& list, const std::vect
   std::cout << done << " done, " << kept << " there already, " << failed << " failed\n";
   if (!others.empty())
     std::cout << others.size() << " other file" << (others.size() == 1 ? "" : "s")
-              << " skipped, not .glb, .gltf or .vrm: " << others[0].filename().string()
+              << " skipped, not .glb, .gltf or .vrm: " << text_of(others[0].filename())
               << (others.size() > 1 ? ", ..." : "") << "\n";
   if (options.rig)
     std::cout << "rigs: " << verdicts["good"] << " good, " << verdicts["check"] << " to check, "
@@ -130,7 +131,7 @@ void print_report(const BatchOptions& options, const Json& list, const std::vect
 void batch(const BatchOptions& options) {
   const auto [files, others] = files_in(options.input, options.shard);
   std::error_code error;
-  fs::create_directories(options.output, error);
+  fs::create_directories(path_of(options.output), error);
   if (error) throw CommandError("cannot make the folder " + options.output, error.message());
   const Context context = make_context(options);
   Progress progress(options.quiet);
@@ -138,9 +139,9 @@ void batch(const BatchOptions& options) {
   Json list = Json::array();
   size_t failed = 0, kept = 0;
   for (size_t i = 0; i < files.size(); ++i) {
-    const fs::path target = fs::path(options.output) / files[i].filename();
-    focal_task* task = progress.begin(files[i].filename().string(), i, files.size());
-    Json entry = {{"mesh", files[i].string()}, {"output", target.string()}};
+    const fs::path target = path_of(options.output) / files[i].filename();
+    focal_task* task = progress.begin(text_of(files[i].filename()), i, files.size());
+    Json entry = {{"mesh", text_of(files[i])}, {"output", text_of(target)}};
     if (fs::exists(target)) {
       entry["status"] = "there already", ++kept;
     } else {

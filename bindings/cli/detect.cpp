@@ -9,6 +9,7 @@
 #include "models.h"
 #include "output.h"
 #include "parameters.h"
+#include "paths.h"
 #include "progress.h"
 #include "text_table.h"
 
@@ -103,7 +104,7 @@ Landmark file_landmark(const focal_landmark& landmark) {
 
 void write_output(const focal_detection* detection, const DetectOptions& options) {
   if (is_gltf(options.output)) return check(focal_detection_write_gltf(detection, options.output.c_str()));
-  LandmarkFile file{std::filesystem::path(options.mesh).filename().string(), {}};
+  LandmarkFile file{text_of(path_of(options.mesh).filename()), {}};
   for (const focal_landmark& landmark : landmarks_of(detection))
     file.landmarks.push_back(file_landmark(landmark));
   write_landmark_file(options.output, file);

@@ -1,73 +1,17 @@
-// Whole files in and out. A file is either written completely or left as it was.
+// Whole files in.
 #include "files.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
-#include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
 #include "command_error.h"
+#include "paths.h"
 
 namespace focal_cli {
-namespace {
 
 namespace fs = std::filesystem;
-
-[[noreturn]] void fail_writing(const std::string& path) {
-  throw CommandError("cannot write '" + path + "': " + std::strerror(errno),
-                     "check that the folder exists, may be written to and has room");
-}
-
-void write_all(int file, std::string_view bytes, const std::string& path) {
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(file, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) fail_writing(path);
-    bytes.remove_prefix(static_cast<size_t>(written));
-  }
-}
-
-struct OpenFile {
-  int descriptor = -1;
-  explicit OpenFile(int d) : descriptor(d) {}
-  OpenFile(const OpenFile&) = delete;
-  OpenFile& operator=(const OpenFile&) = delete;
-  ~OpenFile() {
-    if (descriptor >= 0) ::close(descriptor);
-  }
-};
-
-// Removes the temporary file unless it has been renamed.
-struct TemporaryFile {
-  std::string path;
-  bool kept = false;
-  ~TemporaryFile() {
-    if (!kept) ::unlink(path.c_str());
-  }
-};
-
-mode_t permissions_for(const std::string& path) {
-  struct stat old;
-  if (::stat(path.c_str(), &old) == 0) return old.st_mode & 07777;
-  const mode_t mask = ::umask(0);
-  ::umask(mask);
-  return 0666 & ~mask;
-}
-
-void sync_folder(const fs::path& folder) {
-  const OpenFile handle(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (handle.descriptor >= 0) ::fsync(handle.descriptor);
-}
-
-}  // namespace
 
 bool has_ending(std::string_view path, std::string_view ending) {
   if (path.size() < ending.size()) return false;
@@ -81,42 +25,19 @@ bool is_gltf(std::string_view path) {
 
 std::string read_text_file(const std::string& path) {
   std::error_code code;
-  if (!fs::exists(path, code)) {
+  const fs::path file = path_of(path);
+  if (!fs::exists(file, code)) {
     throw CommandError("there is no file '" + path + "'", "check the path");
   }
-  if (!fs::is_regular_file(path, code)) {
+  if (!fs::is_regular_file(file, code)) {
     throw CommandError("'" + path + "' is not a file", "give the path of a file, not of a folder");
   }
-  std::ifstream stream(path, std::ios::binary);
+  std::ifstream stream(file, std::ios::binary);
   std::ostringstream text;
   if (!stream || !(text << stream.rdbuf() || stream.peek() == EOF)) {
     throw CommandError("cannot read '" + path + "'", "check that you may read it");
   }
   return std::move(text).str();
-}
-
-void write_file_atomically(const std::string& path, std::string_view bytes) {
-  std::error_code code;
-  const fs::file_status target = fs::status(path, code);
-  if (fs::exists(target) && !fs::is_regular_file(target)) {
-    const OpenFile file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
-    if (file.descriptor < 0) fail_writing(path);
-    return write_all(file.descriptor, bytes, path);
-  }
-  // Through a link the file it names is replaced, not the link.
-  const fs::path real = fs::exists(target) ? fs::canonical(path, code) : fs::path(path);
-  TemporaryFile temporary{real.string() + ".XXXXXX"};
-  const mode_t permissions = permissions_for(real.string());
-  const OpenFile file(::mkostemp(temporary.path.data(), O_CLOEXEC));
-  if (file.descriptor < 0) {
-    temporary.kept = true;  // nothing was made, so there is nothing to remove
-    fail_writing(path);
-  }
-  write_all(file.descriptor, bytes, path);
-  if (::fchmod(file.descriptor, permissions) != 0 || ::fsync(file.descriptor) != 0) fail_writing(path);
-  if (::rename(temporary.path.c_str(), real.c_str()) != 0) fail_writing(path);
-  temporary.kept = true;
-  sync_folder(real.has_parent_path() ? real.parent_path() : fs::path("."));
 }
 
 }  // namespace focal_cli

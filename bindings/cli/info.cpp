@@ -1,5 +1,6 @@
 // focal info: what is in a model or a mesh.
 #include <array>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 
@@ -9,6 +10,7 @@
 #include "models.h"
 #include "options.h"
 #include "output.h"
+#include "paths.h"
 #include "text_table.h"
 
 namespace focal_cli {
@@ -21,7 +23,9 @@ struct InfoOptions : CommonOptions {
 // What is plainly no model is looked at as a mesh: the library says what it is.
 bool is_mesh(const std::string& path) {
   std::array<char, 8> magic{};
-  std::ifstream(path, std::ios::binary).read(magic.data(), magic.size());
+  std::error_code unreadable;
+  if (std::filesystem::is_regular_file(path_of(path), unreadable))  // a pipe or a device would block
+    std::ifstream(path_of(path), std::ios::binary).read(magic.data(), magic.size());
   const std::string_view begin(magic.data(), magic.size());
   return is_gltf(path) || begin.starts_with("glTF") || (begin != "FOCALMDL" && !has_ending(path, ".focal"));
 }

@@ -8,6 +8,7 @@
 #include "command_error.h"
 #include "options.h"
 #include "output.h"
+#include "paths.h"
 #include "text_table.h"
 
 namespace focal_cli {
@@ -17,7 +18,7 @@ namespace {
 bool may_be_stock_model(const std::string& text) {
   std::error_code error;
   return text.find_first_of("/\\") == std::string::npos && !text.ends_with(".focal") &&
-         !std::filesystem::exists(text, error);
+         !std::filesystem::exists(path_of(text), error);
 }
 
 Json description_of(const focal_context* context, const StockModel& stock) {

@@ -6,6 +6,7 @@
 
 #include "command_error.h"
 #include "landmark_text.h"
+#include "paths.h"
 
 namespace focal_cli {
 
@@ -23,13 +24,13 @@ void print_json(const Json& document) {
 }
 
 void check_output_folder(const std::string& path) {
-  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  const std::filesystem::path folder = path_of(path).parent_path();
   std::error_code code;
   if (!folder.empty() && !std::filesystem::is_directory(folder, code)) {
-    throw CommandError("there is no folder '" + folder.string() + "' to write '" + path + "' into",
+    throw CommandError("there is no folder '" + text_of(folder) + "' to write '" + path + "' into",
                        "make the folder first");
   }
-  if (std::filesystem::is_directory(path, code)) {
+  if (std::filesystem::is_directory(path_of(path), code)) {
     throw CommandError("'" + path + "' is a folder", "give the name of a file to write");
   }
 }

@@ -1,14 +1,12 @@
 // Progress of long calls on a terminal, and Ctrl-C as a clean cancel.
 #include "progress.h"
 
-#include <signal.h>
-#include <unistd.h>
-
 #include <atomic>
 #include <cmath>
 #include <cstdio>
 
 #include "command_error.h"
+#include "terminal.h"
 
 namespace focal_cli {
 namespace {
@@ -18,15 +16,6 @@ constexpr int polls_per_draw = 5;
 constexpr double enough_to_extrapolate = 0.02;
 
 std::atomic<bool> interrupted{false};
-static_assert(std::atomic<bool>::is_always_lock_free);  // a signal handler may touch nothing else
-
-void catch_signals() {
-  struct sigaction action = {};
-  action.sa_handler = [](int) { interrupted = true; };
-  action.sa_flags = static_cast<int>(SA_RESETHAND);  // a second one ends the process
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-}
 
 std::string clock_text(double seconds) {
   const long whole = std::lround(seconds);
@@ -37,8 +26,8 @@ std::string clock_text(double seconds) {
 
 }  // namespace
 
-Progress::Progress(bool quiet) : draws_(!quiet && ::isatty(STDERR_FILENO)) {
-  catch_signals();
+Progress::Progress(bool quiet) : draws_(!quiet && draws_on_terminal()) {
+  catch_interrupts(interrupted);
   watcher_ = std::thread([this] { watch(); });
 }
 

@@ -15,6 +15,7 @@
 #include "models.h"
 #include "output.h"
 #include "parameters.h"
+#include "paths.h"
 #include "progress.h"
 #include "rig_report.h"
 #include "text_table.h"
@@ -43,7 +44,7 @@ const std::map<std::string, focal_bone_names> conventions = {
 
 // A JSON object from the model's joint names to others; a joint that it lacks keeps its name.
 std::vector<std::string> names_from_file(const std::string& path, const std::vector<std::string>& joints) {
-  if (!std::filesystem::exists(path))
+  if (!std::filesystem::exists(path_of(path)))
     throw CommandError(
         "'" + path + "' is neither a convention of bone names nor a file",
         "write vrm, mixamo, unreal, rigify, rigify-metarig, unity or godot, or pass a JSON file of names");

@@ -8,6 +8,7 @@
 #include "command_error.h"
 #include "files.h"
 #include "json_text.h"
+#include "paths.h"
 
 namespace focal_cli {
 namespace {
@@ -34,7 +35,7 @@ std::map<std::string, std::string> both_ways(const std::map<std::string, std::st
 SetFolder set_of(const Json& document, const std::string& folder) {
   SetFolder set;
   set.folder = folder;
-  set.name = document.value("name", fs::path(folder).filename().string());
+  set.name = document.value("name", text_of(path_of(folder).filename()));
   set.landmark_names = names_in(document, "landmark_names");
   if (document.contains("mirror")) {
     set.mirror = both_ways(document["mirror"].get<std::map<std::string, std::string>>());
@@ -91,19 +92,19 @@ Names SetFolder::meshes(const std::string& split, size_t limit) const {
 SetFolder read_set(const std::string& folder) {
   std::error_code code;
   const std::string path = folder + "/set.json";
-  if (!fs::is_directory(folder, code)) {
+  if (!fs::is_directory(path_of(folder), code)) {
     throw CommandError("there is no folder '" + folder + "'",
                        "a set is a folder with set.json and its meshes");
   }
-  if (!fs::exists(path, code)) {
+  if (!fs::exists(path_of(path), code)) {
     throw CommandError("folder '" + folder + "' has no set.json",
                        "a set needs set.json with landmark_names, train and test");
   }
   try {
     SetFolder set =
-        set_of(parse_json<Json>(read_text_file(path)), fs::path(folder).lexically_normal().string());
-    if (set.folder.size() > 1 && set.folder.ends_with('/')) set.folder.pop_back();
-    if (set.name.empty()) set.name = fs::path(set.folder).filename().string();
+        set_of(parse_json<Json>(read_text_file(path)), text_of(path_of(folder).lexically_normal()));
+    if (set.folder.size() > 1 && !path_of(set.folder).has_filename()) set.folder.pop_back();
+    if (set.name.empty()) set.name = text_of(path_of(set.folder).filename());
     if (!set.landmark_names.empty()) return set;
   } catch (const Json::exception& error) {
     throw CommandError("'" + path + "' cannot be understood: " + std::string(error.what()),

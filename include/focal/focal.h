@@ -33,8 +33,11 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/* Define FOCAL_STATIC if the library is linked statically. */
 #ifndef FOCAL_API
-#if defined(_WIN32) && defined(FOCAL_BUILD)
+#if defined(FOCAL_STATIC)
+#define FOCAL_API
+#elif defined(_WIN32) && defined(FOCAL_BUILD)
 #define FOCAL_API __declspec(dllexport)
 #elif defined(_WIN32)
 #define FOCAL_API __declspec(dllimport)

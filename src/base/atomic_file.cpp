@@ -155,6 +155,8 @@ std::string text_of(const fs::path& path) {
   return {text.begin(), text.end()};
 }
 
+std::optional<fs::path> path_from_text(std::string_view text) { return fs::path(text); }
+
 std::vector<std::byte> read_file(const fs::path& path, int64_t size_limit) {
   require_plain_name(path);
   // O_NONBLOCK: opening a pipe without a writer returns at once, and read_all then refuses it.

@@ -1,31 +1,17 @@
 #include "compute/module_loader.h"
 
-#include <dlfcn.h>
-#include <unistd.h>
-
-#include <filesystem>
-
 #include "base/library_folder.h"
+#include "base/shared_library.h"
+#include "base/system.h"
 
 namespace focal {
 namespace {
 
 constexpr int oldest_driver = 12000;  // as cuDriverGetVersion counts: the one that came with CUDA 12.0
 
-// Shared libraries stay in the process: a driver does not like to be unloaded.
-void* open_library(const std::string& path, std::string& why) {
-  void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
-  if (!library) {
-    const char* error = dlerror();
-    why = error ? error : "it cannot be opened";
-    dlerror();  // gives the text back
-  }
-  return library;
-}
-
 template <class Function>
 Function find(void* library, const char* name) {
-  return reinterpret_cast<Function>(dlsym(library, name));
+  return reinterpret_cast<Function>(find_symbol(library, name));
 }
 
 // Asks the driver itself, so that a module is only opened where it has something to run on. Empty: all is well.
@@ -110,13 +96,14 @@ std::string with_fallback(const Execution& execution, const std::function<void(c
 
 BackendFiles backend_files() {
   BackendFiles files;
+  files.driver = nvidia_driver_file;
   if (const std::string folder = library_folder(); !folder.empty())
-    files.module = folder + "/libfocal_cuda.so";
+    files.module = folder + "/" + library_file_name("focal_cuda");
   return files;
 }
 
 LoadedBackend load_backend(const BackendFiles& files, int32_t device_index) {
-  if (files.module.empty() || access(files.module.c_str(), F_OK) != 0)
+  if (files.module.empty() || !is_regular_file(files.module))
     return {nullptr, or_cpu("there is no GPU module beside the library")};
   if (const std::string problem = driver_problem(files.driver, device_index); !problem.empty())
     return {nullptr, or_cpu(problem)};

@@ -60,10 +60,10 @@ class Backend {
 std::string with_fallback(const Execution& execution, const std::function<void(const Execution&)>& work);
 
 struct BackendFiles {
-  std::string driver = "libcuda.so.1";  // as dlopen takes it
-  std::string module;                   // a path
+  std::string driver;  // as open_library takes it
+  std::string module;  // a path
 };
-// libfocal_cuda.so beside the library or program that holds this code, and nowhere else.
+// libfocal_cuda.so (focal_cuda.dll) beside the library or program that holds this code, and nowhere else.
 BackendFiles backend_files();
 
 struct LoadedBackend {

@@ -51,7 +51,7 @@ std::optional<std::filesystem::path> path_beside(const std::string& uri) {
   std::replace(path.begin(), path.end(), '\\', '/');
   const bool is_name =
       !path.empty() && path.find('\0') == std::string::npos && path.find(':') == std::string::npos;
-  return is_name ? std::optional<std::filesystem::path>(path) : std::nullopt;
+  return is_name ? path_from_text(path) : std::nullopt;
 }
 
 std::span<const std::byte> GltfBuffers::view(int64_t index) {

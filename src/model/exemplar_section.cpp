@@ -7,7 +7,7 @@
 namespace focal {
 namespace {
 
-constexpr float longest = 1000;  // distance in units of sqrt(area)
+constexpr float longest_distance = 1000;  // distance in units of sqrt(area)
 constexpr float bulge_steps = 32767, direction_steps = 127, most_direction = 2;
 
 // Maps -most..most to 0..2 steps.
@@ -62,7 +62,7 @@ void read_exemplars(ByteReader in, LandmarkModel& model) {
     sample.has_chirality = in.u8("chirality") != 0;
     std::vector<float> distance, x, y;  // grown while reading: no allocation exceeds the file's size
     for (Eigen::Index i = 0; i < L * L; ++i) {
-      distance.push_back(in.f32("distance of landmarks", 0, longest));
+      distance.push_back(in.f32("distance of landmarks", 0, longest_distance));
       for (std::vector<float>* way : {&x, &y})
         way->push_back(from_steps(in.u8("direction"), most_direction, direction_steps));
     }

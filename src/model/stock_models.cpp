@@ -1,26 +1,15 @@
 #include "model/stock_models.h"
 
-#include <dirent.h>
-#include <sys/stat.h>
-
 #include <algorithm>
-#include <cstdlib>
-#include <memory>
 
 #include "base/error.h"
+#include "base/system.h"
 
 namespace focal {
 namespace {
 
-#ifdef _WIN32
-constexpr char list_separator = ';';
-#else
-constexpr char list_separator = ':';
-#endif
-
 void add_folders_of_variable(std::vector<std::string>& folders) {
-  const char* value = std::getenv("FOCAL_MODELS");
-  std::string list = value ? value : "";
+  std::string list = environment_variable("FOCAL_MODELS");
   while (!list.empty()) {
     const size_t end = std::min(list.find(list_separator), list.size());
     if (end > 0) folders.emplace_back(list.substr(0, end));
@@ -30,20 +19,12 @@ void add_folders_of_variable(std::vector<std::string>& folders) {
 
 constexpr std::string_view suffix = ".focal";
 
-bool is_file(const std::string& path) {
-  struct stat found;
-  return ::stat(path.c_str(), &found) == 0 && S_ISREG(found.st_mode);
-}
-
 void add_models_in(const std::string& folder, std::vector<StockModel>& models) {
-  const std::unique_ptr<DIR, int (*)(DIR*)> listing(::opendir(folder.c_str()), ::closedir);
-  if (!listing) return;
-  while (const dirent* entry = ::readdir(listing.get())) {
-    const std::string_view file = entry->d_name;
+  for (const std::string& file : regular_files_in(folder)) {
     if (!file.ends_with(suffix) || file == suffix) continue;
-    const std::string name(file.substr(0, file.size() - suffix.size())), path = folder + "/" + entry->d_name;
+    const std::string name = file.substr(0, file.size() - suffix.size());
     const auto same = [&](const StockModel& one) { return one.name == name; };
-    if (is_file(path) && std::none_of(models.begin(), models.end(), same)) models.push_back({name, path});
+    if (std::none_of(models.begin(), models.end(), same)) models.push_back({name, folder + "/" + file});
   }
 }
 

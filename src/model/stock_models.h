@@ -1,7 +1,4 @@
 // Stock models, installed with focal or in a folder that the user names: files NAME.focal, loaded by name.
-//
-// Uses strings and system calls instead of std::filesystem, whose paths and iterators terminate the process
-// when an allocation fails.
 #pragma once
 #include <span>
 #include <string>

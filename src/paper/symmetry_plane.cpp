@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "base/random.h"
@@ -110,7 +111,7 @@ Vector3 ball_moments(const Cloud& cloud, int32_t i, const std::vector<int32_t>& 
   const auto count = static_cast<double>(in_ball.size());
   const Vector3 lean = sum / count;
   const Eigen::Matrix3d covariance = squares / count - lean * lean.transpose();
-  out[0] = count / (cloud_size * M_PI * radius * radius);
+  out[0] = count / (cloud_size * std::numbers::pi * radius * radius);
   out[1] = lean.dot(cloud.normals.row(i).transpose());
   Eigen::Map<Vector3>(out + 2) =
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance, Eigen::EigenvaluesOnly).eigenvalues();

@@ -12,22 +12,13 @@
 #include <string>
 
 #include "base/error.h"
+#include "temporary_folder.h"
 
 using namespace focal;
+using focal_test::TemporaryFolder;
 namespace fs = std::filesystem;
 
 namespace {
-
-struct TemporaryFolder {
-  fs::path path;
-  TemporaryFolder() {
-    std::string name = (fs::temp_directory_path() / "focal-test-XXXXXX").string();
-    REQUIRE(::mkdtemp(name.data()));
-    path = name;
-  }
-  ~TemporaryFolder() { fs::remove_all(path); }
-  int64_t entries() const { return std::distance(fs::directory_iterator(path), fs::directory_iterator()); }
-};
 
 std::vector<std::byte> filled(size_t size, char c) { return std::vector<std::byte>(size, std::byte(c)); }
 

@@ -1,9 +1,8 @@
 /* Stock models through the C ABI: by name from a folder of the host's, and what an unknown name is answered with. */
 #include <stdlib.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include "check.h"
+#include "portable.h"
 #include "shapes.h"
 
 static focal_context* context_with(const char* folder) {
@@ -22,8 +21,8 @@ static int has(const focal_context* context, const char* name) {
 }
 
 int main(void) {
-  char folder[] = "stock_test_XXXXXX", good[64], bad[64];
-  if (!mkdtemp(folder)) return 2;
+  char folder[] = "stock_test", good[64], bad[64];
+  if (!make_folder(folder)) return 2;
   snprintf(good, sizeof good, "%s/dumbbell.focal", folder);
   snprintf(bad, sizeof bad, "%s/broken.focal", folder);
   focal_context* context = context_with(folder);
@@ -53,12 +52,12 @@ int main(void) {
   /* FOCAL_MODELS names folders too; a context looks once. */
   focal_context* before = context_with(NULL);
   CHECK(!has(before, "dumbbell"));
-  CHECK(setenv("FOCAL_MODELS", folder, 1) == 0);
+  CHECK(set_variable("FOCAL_MODELS", folder));
   focal_context* after = context_with(NULL);
   CHECK(has(after, "dumbbell") && !has(before, "dumbbell"));
   focal_context_destroy(before), focal_context_destroy(after);
 
   focal_model_destroy(model), focal_training_set_destroy(set), focal_context_destroy(context);
-  remove(good), remove(bad), rmdir(folder);
+  remove(good), remove(bad), remove_folder(folder);
   FINISH();
 }

@@ -1,17 +1,16 @@
 // A folder of one test's own, gone with the test.
 #pragma once
-#include <stdlib.h>
-
 #include <filesystem>
 #include <fstream>
+#include <random>
 #include <string>
 #include <string_view>
 
 struct ScratchFolder {
   std::filesystem::path path;
   ScratchFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "focal-cli-XXXXXX").string();
-    path = ::mkdtemp(name.data());
+    path = std::filesystem::temp_directory_path() / ("focal-cli-" + std::to_string(std::random_device()()));
+    std::filesystem::create_directory(path);
   }
   ScratchFolder(const ScratchFolder&) = delete;
   ScratchFolder& operator=(const ScratchFolder&) = delete;

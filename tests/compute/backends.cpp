@@ -2,7 +2,6 @@
 // backend_detections.cpp.
 // usage: focal_backend_test DRIVER MODULE [doctest options]. Exit code 77: there is no such device.
 #define DOCTEST_CONFIG_IMPLEMENT
-#include <dlfcn.h>
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -13,6 +12,7 @@
 #include "analysis/leaf_votes.h"
 #include "analysis/surface_analysis.h"
 #include "base/random.h"
+#include "base/shared_library.h"
 #include "compute/backend_under_test.h"
 #include "descriptors/descriptor.h"
 #include "descriptors/si_hks.h"
@@ -24,8 +24,9 @@ using namespace focal;
 using namespace focal_test;
 
 HostFaults* focal_test::faults() {
-  void* module = dlopen(files.module.c_str(), RTLD_NOW | RTLD_NOLOAD);
-  void* found = module ? dlsym(module, "focal_host_faults") : nullptr;
+  std::string why;
+  void* module = open_library(files.module, why);
+  void* found = module ? find_symbol(module, "focal_host_faults") : nullptr;
   return found ? reinterpret_cast<HostFaults* (*)()>(found)() : nullptr;
 }
 
@@ -258,10 +259,10 @@ RowMatrixf isoline_votes(const RowMatrixf& samples, const RowMatrixf& all, const
       }
   }
   for (Eigen::Index v = 0; v < all.rows(); ++v) {
-    int near = 0;
+    int neighbours = 0;
     for (Eigen::Index w = 0; w < all.cols(); ++w)
-      if (all(v, w) < neighbourhood * all.row(v).maxCoeff()) mean.row(v) += votes.row(w), ++near;
-    mean.row(v) /= static_cast<float>(std::max(near, 1));
+      if (all(v, w) < neighbourhood * all.row(v).maxCoeff()) mean.row(v) += votes.row(w), ++neighbours;
+    mean.row(v) /= static_cast<float>(std::max(neighbours, 1));
   }
   return mean;
 }

@@ -1,6 +1,6 @@
 #include "compute/host_module_files.h"
 
-#include <dlfcn.h>
+#include "base/shared_library.h"
 
 namespace focal_test {
 
@@ -9,8 +9,9 @@ const std::string host_module = FOCAL_HOST_module, stale_module = FOCAL_HOST_sta
                   bare_driver = FOCAL_bare_driver, broken_driver = FOCAL_broken_driver;
 
 HostFaults& module_faults() {
-  void* module = dlopen(host_module.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
-  return *reinterpret_cast<HostFaults* (*)()>(dlsym(module, "focal_host_faults"))();
+  std::string why;
+  void* module = focal::open_library(host_module, why);
+  return *reinterpret_cast<HostFaults* (*)()>(focal::find_symbol(module, "focal_host_faults"))();
 }
 
 }  // namespace focal_test

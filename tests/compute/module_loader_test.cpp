@@ -3,7 +3,9 @@
 
 #include <doctest/doctest.h>
 
+#include "base/atomic_file.h"
 #include "compute/host_module_files.h"
+#include "temporary_folder.h"
 
 using namespace focal;
 using namespace focal_test;
@@ -38,7 +40,10 @@ TEST_CASE("what is missing is named") {
   check_refused({broken_driver, host_module}, "does not start (error 999)");
   check_refused({good_driver, good_driver}, "another version of focal");
   check_refused({good_driver, stale_module}, "another version of focal");
-  check_refused({good_driver, "/dev/null"}, "cannot be loaded");
+  const TemporaryFolder folder;
+  const std::string no_library = focal::text_of(folder.path / "module.bin");
+  focal::write_file_atomically(folder.path / "module.bin", {});
+  check_refused({good_driver, no_library}, "cannot be loaded");
 }
 
 TEST_CASE("a device that cannot be opened") {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "base/random.h"
@@ -58,7 +59,7 @@ TEST_CASE("on the sphere, distances are arcs to 1 % of the largest") {
       const double cosine = mesh.positions.row(v).dot(mesh.positions.row(sources[s]));
       error += std::abs(d(s, v) - std::acos(std::clamp(cosine, -1.0, 1.0)));
     }
-    CHECK(error / mesh.vertex_count() < 0.01 * M_PI);
+    CHECK(error / mesh.vertex_count() < 0.01 * std::numbers::pi);
   }
 }
 

@@ -1,6 +1,5 @@
 // Every way glTF can store a triangle mesh, against positions and triangles worked out by hand.
 #include <doctest/doctest.h>
-#include <sys/stat.h>
 
 #include <filesystem>
 #include <string>
@@ -10,6 +9,8 @@
 #include "evaluation_data.h"
 #include "gltf/gltf_builder.h"
 #include "gltf/one_call.h"
+#include "platform.h"
+#include "temporary_folder.h"
 
 using namespace focal;
 using namespace focal_test;
@@ -207,9 +208,8 @@ TEST_CASE("a skinned mesh is placed by its joints, not by its node") {
 }
 
 TEST_CASE("files beside the .gltf are read only when allowed, and only inside its folder") {
-  std::string name = (std::filesystem::temp_directory_path() / "focal-gltf-XXXXXX").string();
-  REQUIRE(::mkdtemp(name.data()));
-  const std::filesystem::path folder = name;
+  const TemporaryFolder temporary;
+  const std::filesystem::path& folder = temporary.path;
   const GltfBuilder file = tetrahedron();
   const auto status = [&](const std::string& uri, bool allow) {
     write_file_atomically(folder / "mesh.gltf", file.gltf(uri));
@@ -223,7 +223,7 @@ TEST_CASE("files beside the .gltf are read only when allowed, and only inside it
     }
   };
   write_file_atomically(folder / "my data.bin", file.bin);
-  REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
+  REQUIRE(focal_test::make_pipe(folder / "pipe"));
   CHECK(status("my%20data.bin", true) == Status::ok);
   CHECK(status("my%20data.bin", false) == Status::unsupported);
   CHECK(status("missing.bin", true) == Status::file_not_found);
@@ -232,7 +232,6 @@ TEST_CASE("files beside the .gltf are read only when allowed, and only inside it
   CHECK(status("%2e%2e/x", true) == Status::invalid_file);
   CHECK(status("/dev/zero", true) == Status::invalid_file);
   CHECK(status("file:///etc/passwd", true) == Status::invalid_file);
-  std::filesystem::remove_all(folder);
 }
 
 TEST_CASE("each kind of damage has its status") {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <numbers>
 #include <set>
 
 #include "surfaces.h"
@@ -109,6 +110,6 @@ TEST_CASE("a wrapped mesh lies where the mesh lies") {
   CHECK(shell.components == 1);
   // Its source is in the coordinates of the surface: of area 1, round the centre.
   const Vector radius = shell.source.positions.rowwise().norm();
-  CHECK((radius.array() - 1 / std::sqrt(4 * M_PI)).abs().maxCoeff() < 0.005);
+  CHECK((radius.array() - 1 / std::sqrt(4 * std::numbers::pi)).abs().maxCoeff() < 0.005);
   CHECK(shell.scale == doctest::Approx(1).epsilon(0.01));
 }

@@ -2,27 +2,20 @@
 #include "model/stock_models.h"
 
 #include <doctest/doctest.h>
-#include <unistd.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
 #include "base/error.h"
+#include "platform.h"
+#include "temporary_folder.h"
 
 using namespace focal;
 namespace fs = std::filesystem;
 
 namespace {
 
-struct Folder {
-  fs::path path;
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "focal_stock_XXXXXX").string();
-    REQUIRE(mkdtemp(name.data()));
-    path = name;
-  }
-  ~Folder() { fs::remove_all(path); }
+struct Folder : focal_test::TemporaryFolder {
   void put(const std::string& name) const {
     fs::create_directories((path / name).parent_path());
     std::ofstream(path / name) << "model";
@@ -31,8 +24,8 @@ struct Folder {
 
 // FOCAL_MODELS while it lives.
 struct Variable {
-  explicit Variable(const std::string& value) { setenv("FOCAL_MODELS", value.c_str(), 1); }
-  ~Variable() { unsetenv("FOCAL_MODELS"); }
+  explicit Variable(const std::string& value) { focal_test::set_variable("FOCAL_MODELS", value); }
+  ~Variable() { focal_test::set_variable("FOCAL_MODELS", ""); }
 };
 
 }  // namespace

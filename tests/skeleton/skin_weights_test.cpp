@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "skeleton/leak_filter.h"
 #include "skeleton/part_weights.h"
@@ -25,7 +26,7 @@ void add_tube(TriangleMesh& mesh, double low, double high, double radius = 0.1, 
   int32_t t = before;
   for (int r = 0; r < rings; ++r)
     for (int a = 0; a < around; ++a) {
-      const double angle = 2 * M_PI * a / around;
+      const double angle = 2 * std::numbers::pi * a / around;
       mesh.positions.row(first + r * around + a) << sideways + radius * std::cos(angle),
           low + (high - low) * r / (rings - 1), -radius * std::sin(angle);
       if (r == 0) continue;

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "landmark_text.h"
+#include "paths.h"
 #include "report_files.h"
 #include "shown_mesh.h"
 
@@ -87,7 +88,7 @@ std::string ReportPage::html(Json report) const {
   std::stable_sort(meshes.begin(), meshes.end(),
                    [](const Json& a, const Json& b) { return badness(a) > badness(b); });
   report["meshes"] = std::move(meshes);
-  report["model"] = std::filesystem::path(report["model"].get<std::string>()).filename().string();
+  report["model"] = text_of(path_of(report["model"].get<std::string>()).filename());
   report["version"] = focal_version_string();
   report["up"] = "Y";
   const std::string data = script_safe(report.dump(-1, ' ', false, Json::error_handler_t::replace));

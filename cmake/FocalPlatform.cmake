@@ -1,0 +1,18 @@
+# NAME_windows.cpp is compiled in place of NAME.cpp on Windows, and nowhere else. By itself: windows.h defines thousands of macros.
+# sources: a list; ending: ".cpp" or "_test.cpp".
+function(focal_choose_platform sources ending)
+  set(chosen ${${sources}})
+  if(WIN32)
+    foreach(source IN LISTS chosen)
+      string(REPLACE "_windows${ending}" "${ending}" other ${source})
+      if(NOT source STREQUAL other)
+        list(REMOVE_ITEM chosen ${other})
+        set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+      endif()
+    endforeach()
+  else()
+    string(REPLACE "." "\\." pattern ${ending})
+    list(FILTER chosen EXCLUDE REGEX "_windows${pattern}$")
+  endif()
+  set(${sources} ${chosen} PARENT_SCOPE)
+endfunction()
