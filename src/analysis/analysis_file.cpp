@@ -10,7 +10,8 @@
 namespace focal {
 namespace {
 
-constexpr ArchiveKind kind{"FOCALANA", "analysis", 1, 1};
+constexpr ArchiveKind kind{"FOCALANA", "analysis", 1, 2};
+constexpr const char* described_section = "DSCR";
 constexpr int32_t most = std::numeric_limits<int32_t>::max();
 constexpr double farthest = 1e9;  // coordinates of a surface of area 1
 
@@ -59,26 +60,39 @@ Proxy read_proxy(ByteReader in, std::shared_ptr<const PreparedMesh> full) {
           0};
 }
 
+void write_described(ByteWriter& out, const std::vector<int32_t>& vertices, const RowMatrixf& descriptors) {
+  out.u32(static_cast<uint32_t>(vertices.size()));
+  for (const int32_t v : vertices) out.i32(v);
+  out.f32s({descriptors.data(), static_cast<size_t>(descriptors.size())});
+}
+
 std::vector<std::byte> samples_section(const SurfaceAnalysis& analysis) {
   ByteWriter out;
-  out.u32(static_cast<uint32_t>(analysis.samples.size()));
-  for (const int32_t v : analysis.samples) out.i32(v);
-  out.f32s({analysis.descriptors.data(), static_cast<size_t>(analysis.descriptors.size())});
+  write_described(out, analysis.samples, analysis.descriptors);
   out.u8(!analysis.distances.steps.empty());
   for (const uint16_t step : analysis.distances.steps) out.u16(step);
   return out.take();
 }
 
-void read_samples(ByteReader in, SurfaceAnalysis& analysis) {
+// Vertices, and their descriptors.
+void read_described(ByteReader& in, const char* what, const SurfaceAnalysis& analysis,
+                    std::vector<int32_t>& vertices, RowMatrixf& descriptors) {
   const int32_t n = analysis.surface().vertex_count();
   const int32_t dimension = descriptor_kinds()[analysis.params.descriptor].dimension;
-  const int32_t count = in.count("sample count", 32 + 32 * static_cast<uint64_t>(dimension), 1, n);
-  for (int32_t i = 0; i < count; ++i) analysis.samples.push_back(in.i32("sample", 0, n - 1));
+  const int32_t count =
+      in.count((std::string(what) + " count").c_str(), 32 + 32 * static_cast<uint64_t>(dimension), 1, n);
+  for (int32_t i = 0; i < count; ++i) vertices.push_back(in.i32(what, 0, n - 1));
   const auto values = in.f32s("descriptor", static_cast<size_t>(count) * dimension, -1e9F, 1e9F);
-  analysis.descriptors = Eigen::Map<const RowMatrixf>(values.data(), count, dimension);
+  descriptors = Eigen::Map<const RowMatrixf>(values.data(), count, dimension);
+}
+
+void read_samples(ByteReader in, SurfaceAnalysis& analysis) {
+  read_described(in, "sample", analysis, analysis.samples, analysis.descriptors);
+  const int32_t n = analysis.surface().vertex_count();
   if (in.u8("distances kept")) {
     constexpr int lanes = Distance::lanes;
-    const size_t entries = static_cast<size_t>((count + lanes - 1) / lanes) * lanes * static_cast<size_t>(n);
+    const size_t blocks = (analysis.samples.size() + lanes - 1) / lanes;
+    const size_t entries = blocks * lanes * static_cast<size_t>(n);
     const auto bytes = in.raw("distances", 2 * entries);
     analysis.distances = {analysis.metric->distance_bound() / 65535, n, {}};
     analysis.distances.steps.resize(entries);
@@ -110,6 +124,11 @@ std::vector<std::byte> serialise(const SurfaceAnalysis& analysis) {
                                           {"PRXY", proxy_section(analysis.proxy)},
                                           {"EIGN", eigenfunctions_section(analysis.eigenfunctions)},
                                           {"SMPL", samples_section(analysis)}};
+  if (const DescribedVertices& spread = analysis.described; !spread.vertices.empty()) {
+    ByteWriter out;
+    write_described(out, spread.vertices, spread.descriptors);
+    sections.push_back({described_section, out.take()});
+  }
   if (const Method method{analysis.params.descriptor, analysis.params.distance}; !method.is_first())
     sections.push_back({method_section, write_method(method)});
   return write_archive(kind, sections);
@@ -135,6 +154,12 @@ SurfaceAnalysis parse_analysis(std::span<const std::byte> file, std::shared_ptr<
   describe_relief(analysis, execution);
   analysis.eigenfunctions = read_eigenfunctions(archive.section("EIGN"), analysis.surface().vertex_count());
   read_samples(archive.section("SMPL"), analysis);
+  if (archive.has(described_section)) {  // since version 1.2
+    ByteReader in = archive.section(described_section);
+    read_described(in, "described vertex", analysis, analysis.described.vertices,
+                   analysis.described.descriptors);
+    in.expect_end();
+  }
   return analysis;
 }
 

@@ -23,10 +23,9 @@ class CpuEngine final : public Engine {
   }
 
   RowMatrixf descriptors(const SurfaceAnalysis& analysis, const Eigenbasis& basis,
-                         const Execution& execution) const override {
+                         const std::vector<int32_t>& vertices, const Execution& execution) const override {
     const DescriptorKind& kind = descriptor_kinds()[analysis.params.descriptor];
-    return kind.describe({analysis.surface(), analysis.operators, basis}, analysis.samples, execution)
-        .cast<float>();
+    return kind.describe({analysis.surface(), analysis.operators, basis}, vertices, execution).cast<float>();
   }
 
   RowMatrixf votes(const SurfaceAnalysis& analysis, const LandmarkModel& model, const RowMatrixf& features,

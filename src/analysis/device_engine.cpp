@@ -22,13 +22,13 @@ class DeviceEngine final : public Engine {
 
   // Descriptors that are not functions of the spectrum are computed on the CPU.
   RowMatrixf descriptors(const SurfaceAnalysis& analysis, const Eigenbasis& basis,
-                         const Execution& execution) const override {
+                         const std::vector<int32_t>& vertices, const Execution& execution) const override {
     const DescriptorKind& kind = descriptor_kinds()[analysis.params.descriptor];
     const double area = analysis.operators.area;
-    if (analysis.params.descriptor == 0) return surface_->si_hks(basis.lambda, area, analysis.samples);
+    if (analysis.params.descriptor == 0) return surface_->si_hks(basis.lambda, area, vertices);
     if (kind.spectral_weights)
-      return surface_->spectral_signatures(kind.spectral_weights(basis.lambda, area), area, analysis.samples);
-    return cpu_engine()->descriptors(analysis, basis, execution);
+      return surface_->spectral_signatures(kind.spectral_weights(basis.lambda, area), area, vertices);
+    return cpu_engine()->descriptors(analysis, basis, vertices, execution);
   }
 
   // The device computes forest, distances and votes in one call.

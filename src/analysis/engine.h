@@ -29,9 +29,9 @@ class Engine {
 
   virtual Eigenbasis spectrum(const SurfaceAnalysis& analysis, const EigenParams& params,
                               const Execution& execution) const = 0;
-  // Descriptors of the samples; called after the spectrum, which computed the basis.
+  // Descriptors of the vertices; called after the spectrum, which computed the basis.
   virtual RowMatrixf descriptors(const SurfaceAnalysis& analysis, const Eigenbasis& basis,
-                                 const Execution& execution) const = 0;
+                                 const std::vector<int32_t>& vertices, const Execution& execution) const = 0;
   // Votes of the first samples, one row of features each: vertices x landmarks.
   virtual RowMatrixf votes(const SurfaceAnalysis& analysis, const LandmarkModel& model,
                            const RowMatrixf& features, const Execution& execution,

@@ -51,6 +51,18 @@ EigenParams eigen_params(const AnalysisParams& params) {
   return eigen;
 }
 
+// Vertices are numbered region by region: every k-th is spread over all regions.
+DescribedVertices describe_spread(const SurfaceAnalysis& analysis, const Eigenbasis& basis,
+                                  const Execution& execution) {
+  DescribedVertices result;
+  if (analysis.params.max_described == 0) return result;
+  const int32_t n = analysis.surface().vertex_count();
+  const int32_t stride = (n + analysis.params.max_described - 1) / analysis.params.max_described;
+  for (int32_t v = 0; v < n; v += stride) result.vertices.push_back(v);
+  result.descriptors = analysis.engine->descriptors(analysis, basis, result.vertices, execution);
+  return result;
+}
+
 }  // namespace
 
 AnalysisParams analysis_params_of(const TrainParams& trained) {
@@ -80,7 +92,8 @@ SurfaceAnalysis analyse_surface(std::shared_ptr<const PreparedMesh> mesh, const 
   Random random(params.seed, params.stream);
   const int32_t n = result.surface().vertex_count(), count = sample_count(n, params);
   result.samples = sample_without_replacement(random, n, count);
-  result.descriptors = result.engine->descriptors(result, basis, execution);
+  result.descriptors = result.engine->descriptors(result, basis, result.samples, execution);
+  result.described = describe_spread(result, basis, execution);
   describe_relief(result, execution);
   result.descriptor_seconds = watch.lap();
   return result;

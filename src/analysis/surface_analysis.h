@@ -19,6 +19,7 @@ struct AnalysisParams {
   int32_t eigenpair_count = 200;
   double sampling_rate = 0.1;  // share of the analysed vertices
   int32_t max_samples = 1250;
+  int32_t max_described = 0;  // see SurfaceAnalysis::described
   uint64_t seed = 0, stream = 0;
   // Preset `paper`: the published method exactly, without intrinsic Delaunay triangulation and with negative
   // heat (see HeatMethod).
@@ -37,6 +38,11 @@ struct SampleDistances {
   std::vector<uint16_t> steps;
 };
 
+struct DescribedVertices {
+  std::vector<int32_t> vertices;
+  RowMatrixf descriptors;  // vertices x components
+};
+
 struct SurfaceAnalysis {
   AnalysisParams params;
   Proxy proxy;
@@ -45,6 +51,7 @@ struct SurfaceAnalysis {
   std::shared_ptr<const Engine> engine = cpu_engine();  // a device's only until the analysis is returned
   std::vector<int32_t> samples;  // vertices, in random order: every prefix is a random sample too
   RowMatrixf descriptors;        // samples x components
+  DescribedVertices described;   // independent of the seed: at most max_described, spread over the surface
   RowMatrixf eigenfunctions;     // vertices x eigenpairs
   MatrixX3 normals;              // vertices x 3, unit length
   RowMatrixf bulge;              // see descriptors/bulge.h

@@ -16,6 +16,9 @@
 namespace focal {
 namespace {
 
+// A few hundred samples decide the heading of some characters by the seed; a proxy has fewer vertices than this.
+constexpr int32_t described_for_heading = 4000;
+
 DetectedPoint point_at(const PreparedMesh& mesh, const SurfacePoint& surface_point, double confidence) {
   DetectedPoint point;
   point.source_point = to_source(mesh, surface_point);
@@ -172,6 +175,7 @@ SurfaceAnalysis analyse_for(const TrainParams& trained, std::shared_ptr<const Pr
   validate(params);
   AnalysisParams how = analysis_params_of(trained);
   how.sampling_rate = sampling_rate_of(params, trained), how.max_samples = params.max_samples;
+  how.max_described = trained.oriented && trained.finds_heading ? described_for_heading : 0;
   how.seed = params.seed;
   return analyse_surface(std::move(mesh), how, execution);
 }
@@ -227,7 +231,7 @@ Detection detect(std::shared_ptr<const LandmarkModel> model, const SurfaceAnalys
   result.exemplars = placement.exemplars;
   result.maps = std::move(placement.maps), result.map_residual = placement.map_residual;
   result.bulge_agreement = placement.bulge_agreement, result.cost_margin = placement.cost_margin;
-  result.frame = placement.frame;
+  result.heading_advantage = placement.heading_advantage, result.frame = placement.frame;
   result.has_fixed =
       std::any_of(params.fixed.begin(), params.fixed.end(), [](const auto& one) { return one.has_value(); });
   result.category_fit = estimate.category_fit;

@@ -41,7 +41,7 @@ struct Detection {
   std::vector<int32_t> exemplars;               // the most similar training shapes
   std::vector<ShapeMap> maps;                   // from training shapes, with quality `best`
   float map_residual = 0, bulge_agreement = 0;  // see Placement
-  double cost_margin = 0;
+  double cost_margin = 0, heading_advantage = 0;
   Matrix3 frame = Matrix3::Identity();  // likewise
   bool has_fixed = false;               // known landmarks were given, so the orientation of the body is known
   RowMatrixf votes;  // landmarks x vertices of proxy.coarse->surface, each row's largest is 1; may be empty

@@ -9,7 +9,6 @@
 namespace focal {
 namespace {
 
-constexpr int32_t looked_at = 800;      // samples used
 constexpr double turned_penalty = 11;   // for not facing +Z, in units of energy; few files do not
 constexpr double tilted_penalty = 30;   // for not standing upright, likewise
 constexpr double facing_weight = 160;   // of the correlation of the normals, relative to energies
@@ -71,8 +70,8 @@ Matrix3 about_up(double angle) { return Eigen::AngleAxisd(angle, Vector3::UnitY(
 
 // Candidate headings of a body that is upright in `placed`: as it is, reversed, and the estimated ones.
 std::vector<Heading> headings_about_up(const LandmarkModel& model, const SurfaceAnalysis& analysis,
-                                       const RowMatrixf& placed, double prior) {
-  const RowMatrixf features = upright_features(analysis, placed);
+                                       const Described& of, const RowMatrixf& placed, double prior) {
+  const RowMatrixf features = upright_features(analysis, of, placed);
   // The features do not distinguish left from right: across the up axis they only predict front and back.
   const Matrix3 seen = correlation(expected_places(model.facing, model.facing_targets, features), placed,
                                    {0, 0, 1}, {1, 0, 1});
@@ -93,15 +92,18 @@ std::vector<Heading> headings_to_try(const LandmarkModel& model, const SurfaceAn
                                      DetectParams::Orientation orientation) {
   if (!model.params.oriented || !model.params.finds_heading) return {Heading{}};
   const bool is_any = orientation == DetectParams::Orientation::any;
-  const auto count = std::min(looked_at, static_cast<int32_t>(analysis.samples.size()));
-  const RowMatrixf placed = placed_features(analysis, count);
-  std::vector<Heading> result = headings_about_up(model, analysis, placed, is_any ? 0 : turned_penalty);
+  const DescribedVertices& spread = analysis.described;
+  const Described of = spread.vertices.empty()
+                           ? first_samples(analysis, static_cast<int32_t>(analysis.samples.size()))
+                           : Described{spread.vertices, spread.descriptors};
+  const RowMatrixf placed = placed_features(analysis, of.vertices);
+  std::vector<Heading> result = headings_about_up(model, analysis, of, placed, is_any ? 0 : turned_penalty);
   const Matrix3 risen =
-      correlation(expected_places(model.rising, model.facing_targets, invariant_features(analysis, count)),
+      correlation(expected_places(model.rising, model.facing_targets, invariant_features(analysis, of)),
                   placed, {1, 1, 1}, {1, 1, 1});
   const Matrix3 turn = best_turn(risen);
   if (is_any || fit(risen, turn) > best_upright_fit(risen) + clearly_tilted)
-    for (Heading& heading : headings_about_up(model, analysis, turned(placed, turn), 0)) {
+    for (Heading& heading : headings_about_up(model, analysis, of, turned(placed, turn), 0)) {
       heading.frame = heading.frame * turn;
       heading.penalty += is_any ? 0 : tilted_penalty;
       result.push_back(heading);
@@ -124,9 +126,10 @@ void learn_orientation(LandmarkModel& model, const std::vector<const SurfaceAnal
   Eigen::Index row = 0;
   for (const SurfaceAnalysis* mesh : meshes) {
     const int32_t count = count_of(mesh);
-    const RowMatrixf placed = placed_features(*mesh, count);
-    invariant.middleRows(row, count) = invariant_features(*mesh, count);
-    upright.middleRows(row, count) = upright_features(*mesh, placed);
+    const Described of = first_samples(*mesh, count);
+    const RowMatrixf placed = placed_features(*mesh, of.vertices);
+    invariant.middleRows(row, count) = invariant_features(*mesh, of);
+    upright.middleRows(row, count) = upright_features(*mesh, of, placed);
     model.facing_targets.middleRows(row, count) =
         placed.unaryExpr([](float value) { return place_from_file(place_to_file(value)); });
     row += count;

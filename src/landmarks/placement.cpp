@@ -135,6 +135,17 @@ double min_cost(const std::vector<Supposition>& suppositions) {
   return least;
 }
 
+// See Placement::heading_advantage.
+double heading_advantage(const std::vector<Supposition>& suppositions, const Matrix3& chosen) {
+  double along = std::numeric_limits<double>::infinity(), opposite = along;
+  for (const Supposition& one : suppositions) {
+    const double cosine = one.start.frame.row(2).dot(chosen.row(2));
+    if (cosine > 0.9) along = std::min(along, one.min_cost());
+    if (cosine < -0.9) opposite = std::min(opposite, one.min_cost());
+  }
+  return opposite - along;
+}
+
 Supposition suppose(const LandmarkModel& model, const SurfaceAnalysis& analysis, const Heading& heading,
                     int32_t samples, const DetectParams& params, const Execution& execution,
                     StageSeconds& seconds) {
@@ -274,6 +285,7 @@ Placement place_landmarks(const LandmarkModel& model, const SurfaceAnalysis& ana
     rank_by_maps(model, analysis, 0, execution, hypotheses);
   }
   Placement result = std::move(hypotheses[0].placement);
+  result.heading_advantage = heading_advantage(suppositions, result.frame);
   result.cost_margin = hypotheses.size() > 1 ? hypotheses[1].cost - hypotheses[0].cost
                                              : std::numeric_limits<double>::infinity();
   join_transferred_landmarks(model, analysis, params.quality, result, execution);

@@ -16,10 +16,13 @@ namespace {
 constexpr size_t max_from_maps = 6, max_reversed = 4, max_laid_over = 8, max_kept_over = 4;  // fits
 constexpr double sure_bulge = 0.25;     // maps with at least this bulge agreement have the correct heading
 constexpr double sure_residual = 0.07;  // if a fit from them ends this near to the body
-constexpr double reversing_margin = 0.035;  // required advantage of fits with the opposite heading
-constexpr double residual_falloff = 30;     // weight of a fit: exp(-falloff (residual / least residual - 1))
-constexpr double agreement = 0.05;          // in sqrt(area): fits with more distant joints get a small weight
-constexpr double start_weight = 0.7;        // of the maps' joints relative to all fits
+// Weight of the detection's advantage in energy relative to the logarithm of the residuals' ratio: the forest
+// knows front and back of every part, a fit only the outline.
+constexpr double advantage_weight = 1.0 / 600;
+constexpr double sure_advantage = 30;    // smaller advantages are checked by fits
+constexpr double residual_falloff = 30;  // weight of a fit: exp(-falloff (residual / least residual - 1))
+constexpr double agreement = 0.05;       // in sqrt(area): fits with more distant joints get a small weight
+constexpr double start_weight = 0.7;     // of the maps' joints relative to all fits
 constexpr FitRounds from_maps{.coarse = 10, .fine = 5, .map_weight = 0.3};
 constexpr FitRounds from_posture{.coarse = 10, .fine = 5}, glance{.coarse = 8, .fine = 0};
 constexpr FitRounds from_exchanged{.coarse = 25, .fine = 10};  // the trunk has to rotate back
@@ -151,6 +154,19 @@ class Fitting {
         exchanged += (fit.posture.place[j] - start_.place[counterpart_[j]]).norm();
       }
     return exchanged < as_it_is;
+  }
+
+  // The detection's evidence that the start faces as the body does: negative where maps exchanged its sides,
+  // compared with a training shape in the detected frame.
+  double heading_advantage(const FittedShape& any) const {
+    const ArticulatedFit& fit = *fits_[any.shape];
+    double along = 0;
+    for (size_t j = 0; j < counterpart_.size(); ++j)
+      if (const int32_t other = counterpart_[j];
+          other > static_cast<int32_t>(j) && fit.has(j) && fit.has(other))
+        along += (fit.bind_place(j) - fit.bind_place(other))
+                     .dot(detection_.frame * (start_.place[j] - start_.place[other]));
+    return along < 0 ? -detection_.heading_advantage : detection_.heading_advantage;
   }
 
   void finish(FittedShape& one) const {
@@ -309,11 +325,12 @@ void choose_heading(const Fitting& fitting, bool may_reverse, const FixedJoints&
     kept[may_reverse && fitting.is_reversed(one) ? 1 : 0].push_back(std::move(one));
   for (auto& fits : kept) Fitting::keep_best(fits, fits.size());
   if (!kept[0].empty() && !kept[1].empty()) {
-    const double ratio = kept[1][0].residual / kept[0][0].residual;
+    const double margin = std::log(kept[1][0].residual / kept[0][0].residual) +
+                          advantage_weight * fitting.heading_advantage(kept[0][0]);
     const auto as_it_is = away_from(fixed, fitting, kept[0][0]),
                reversed = away_from(fixed, fitting, kept[1][0]);
-    result.is_reversed = as_it_is ? *reversed < *as_it_is : ratio < 1 - reversing_margin;
-    result.heading_margin = as_it_is ? result.heading_margin : (result.is_reversed ? 1 / ratio : ratio) - 1;
+    result.is_reversed = as_it_is ? *reversed < *as_it_is : margin < 0;
+    if (!as_it_is) result.heading_margin = std::abs(margin);
   } else {
     result.is_reversed = kept[0].empty();
   }
@@ -330,7 +347,8 @@ BodyFit fit_to_body(const Detection& detection, const std::vector<ShapeMap>& map
   fitting.add(fitting.from_maps(maps), from_maps, result.shapes);
   const bool is_known = away_from(fixed, fitting, result.shapes[0]).has_value();
   const double nearest = std::ranges::min(result.shapes, {}, &FittedShape::residual).residual;
-  const bool is_sure = detection.bulge_agreement >= sure_bulge && nearest < sure_residual;
+  const bool is_sure = detection.bulge_agreement >= sure_bulge && nearest < sure_residual &&
+                       fitting.heading_advantage(result.shapes[0]) >= sure_advantage;
   if (detection.model->params.oriented && (is_known || !is_sure)) {
     may_reverse = may_reverse && fitting.has_sides();
     if (may_reverse) fitting.add(fitting.reversed(result.shapes), from_posture, result.shapes);

@@ -26,8 +26,8 @@ struct BodyFit {
   // Relative weight of the joints from the maps; 0 where the fits moved away from them.
   double start_share = 0;
   bool is_reversed = false;  // the heading is opposite to that of the maps
-  // How much larger the residual of the best fit with the opposite heading is, as a fraction; infinite: none
-  // was tried.
+  // Evidence against the opposite heading: the logarithm of the ratio of the residuals of the best fits, plus
+  // the detection's share; infinite: none was tried.
   double heading_margin = std::numeric_limits<double>::infinity();
 };
 

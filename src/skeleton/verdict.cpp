@@ -289,10 +289,9 @@ RigMeasures rig_measures(const Detection& detection, const CharacterRig& rig) {
   RigMeasures result;
   const auto& joints = rig.rig.joints;
   result.category_fit = detection.category_fit;
-  if (!detection.maps.empty()) {
-    result.map_residual = detection.map_residual, result.bulge_agreement = detection.bulge_agreement;
-    result.cost_margin = detection.cost_margin;
-  }
+  if (!detection.exemplars.empty())
+    result.bulge_agreement = detection.bulge_agreement, result.cost_margin = detection.cost_margin;
+  if (!detection.maps.empty()) result.map_residual = detection.map_residual;
   result.surface_distance = rig.surface_distance, result.heading_margin = rig.heading_margin;
   double doubt = 0, doubted = 0;
   for (size_t j = 0; j < rig.confidence.size(); ++j)

@@ -21,9 +21,13 @@ std::shared_ptr<const PreparedMesh> ball(double radius = 1) {
 }
 
 SurfaceAnalysis analysed(int32_t proxy_vertices = 0, bool keep = true) {
-  SurfaceAnalysis analysis = analyse_surface(
-      ball(),
-      {.proxy_vertices = proxy_vertices, .eigenpair_count = 12, .sampling_rate = 1, .max_samples = 40}, {});
+  SurfaceAnalysis analysis = analyse_surface(ball(),
+                                             {.proxy_vertices = proxy_vertices,
+                                              .eigenpair_count = 12,
+                                              .sampling_rate = 1,
+                                              .max_samples = 40,
+                                              .max_described = keep ? 100 : 0},
+                                             {});
   if (keep) keep_distances(analysis, {});
   return analysis;
 }
@@ -58,6 +62,9 @@ TEST_CASE(
       CHECK(back.params.proxy_vertices == proxy_vertices);
       CHECK(back.samples == analysis.samples);
       CHECK(back.descriptors == analysis.descriptors);
+      CHECK(back.described.vertices == analysis.described.vertices);
+      CHECK(back.described.descriptors == analysis.described.descriptors);
+      CHECK(back.described.vertices.empty() != keep);
       CHECK(back.eigenfunctions == analysis.eigenfunctions);
       CHECK(back.distances.steps == analysis.distances.steps);
       CHECK(back.distances.steps.empty() != keep);
@@ -84,6 +91,9 @@ TEST_CASE("each number of an analysis has its bounds") {
   check_error(error_of(patched(file, "SMPL", 4, minus_one)), "SMPL: sample is out of range");
   check_error(error_of(patched(file, "SMPL", 0, 0)), "SMPL: sample count");
   check_error(error_of(patched(file, "SMPL", 0, 259)), "SMPL: sample count");
+  CHECK(error_of(patched(file, "DSCR", 4, 257)) == "");
+  check_error(error_of(patched(file, "DSCR", 4, 258)), "DSCR: described vertex is out of range");
+  check_error(error_of(patched(file, "DSCR", 0, 0)), "DSCR: described vertex count");
   check_error(error_of(patched(file, "EIGN", 0, 0)), "EIGN: eigenfunction count");
   check_error(error_of(patched(file, "EIGN", 0, 13)), "EIGN: eigenfunction count is larger than the section");
   SurfaceAnalysis least = analysed(0, false);

@@ -29,7 +29,7 @@ MarkedShape coarse(const MarkedShape& shape) {
 std::shared_ptr<const LandmarkModel> trained(Preset preset) {
   TrainingSet set;
   for (const auto& mark : humanoid(100).landmarks) set.landmark_names.push_back(mark.name);
-  for (uint64_t seed = 100; seed < (sanitized ? 104 : 112); ++seed) {
+  for (uint64_t seed = 100; seed < (sanitized ? 104 : 106); ++seed) {
     MarkedShape shape = marked(humanoid(seed));
     if (preset == Preset::paper) shape = coarse(shape);
     set.shapes.push_back(std::move(shape));

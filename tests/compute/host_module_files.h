@@ -2,7 +2,7 @@
 #pragma once
 #include <string>
 
-#include "compute/host_queue.h"
+#include "compute/host_faults.h"
 #include "compute/module_loader.h"
 
 namespace focal_test {

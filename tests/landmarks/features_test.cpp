@@ -82,17 +82,22 @@ TEST_CASE("features: a body that is turned has the same in its own frame, and ot
 TEST_CASE("features: what is said of a point's height does not change with a turn about the up axis") {
   const SurfaceAnalysis analysis = analysed(with_radius(sphere(3), lump));
   const TrainParams params = with(true, true);
-  const RowMatrixf placed = placed_features(analysis, 20);
+  const RowMatrixf placed = placed_features(analysis, first_samples(analysis, 20).vertices);
   const auto turned_about = [&](const Vector3& axis) -> RowMatrixf {
     const Eigen::Matrix3f turn = Eigen::AngleAxisd(0.7, axis).toRotationMatrix().cast<float>().transpose();
     RowMatrixf result(placed.rows(), placed.cols());
     result << placed.leftCols(3) * turn, placed.rightCols(3) * turn;
     return result;
   };
-  const RowMatrixf upright = upright_features(analysis, placed);
+  const RowMatrixf upright = upright_features(analysis, first_samples(analysis, 20), placed);
   CHECK(upright.cols() == upright_feature_count(params));
   CHECK(upright_feature_count(params) <= max_components);
-  CHECK(upright.leftCols(invariant_feature_count(params)) == invariant_features(analysis, 20));
-  CHECK((upright_features(analysis, turned_about({0, 1, 0})) - upright).cwiseAbs().maxCoeff() < 1e-5F);
-  CHECK((upright_features(analysis, turned_about({1, 0, 0})) - upright).cwiseAbs().maxCoeff() > 0.1F);
+  CHECK(upright.leftCols(invariant_feature_count(params)) ==
+        invariant_features(analysis, first_samples(analysis, 20)));
+  CHECK((upright_features(analysis, first_samples(analysis, 20), turned_about({0, 1, 0})) - upright)
+            .cwiseAbs()
+            .maxCoeff() < 1e-5F);
+  CHECK((upright_features(analysis, first_samples(analysis, 20), turned_about({1, 0, 0})) - upright)
+            .cwiseAbs()
+            .maxCoeff() > 0.1F);
 }

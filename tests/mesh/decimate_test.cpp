@@ -16,8 +16,6 @@ using namespace focal_test;
 
 namespace {
 
-Execution threads(int count) { return {.thread_count = count, .task = nullptr, .host_parallel_for = {}}; }
-
 // Larger than what is decimated in one piece, and long, so that the slabs' borders cross the surface.
 const TriangleMesh& large_ellipsoid() {
   static const TriangleMesh mesh = [] {
@@ -33,7 +31,8 @@ const TriangleMesh& large_ellipsoid() {
 TEST_CASE("a large surface is decimated by slabs to what was asked for, closed and near the original") {
   const TriangleMesh& mesh = large_ellipsoid();
   REQUIRE(mesh.vertex_count() > 60000);
-  const TriangleMesh coarse = decimate(mesh, 3500, threads(2));
+  const TriangleMesh coarse =
+      decimate(mesh, 3500, {.thread_count = 2, .task = nullptr, .host_parallel_for = {}});
   CHECK(std::abs(coarse.vertex_count() - 3500) < 100);
   CHECK(is_closed(coarse));
   CHECK(coarse.vertex_count() - coarse.triangle_count() / 2 == 2);
@@ -48,9 +47,11 @@ TEST_CASE("a large surface is decimated by slabs to what was asked for, closed a
 }
 
 TEST_CASE("the same bits for one, two and four threads") {
-  const TriangleMesh one = decimate(large_ellipsoid(), 2000, threads(1));
+  const TriangleMesh one =
+      decimate(large_ellipsoid(), 2000, {.thread_count = 1, .task = nullptr, .host_parallel_for = {}});
   for (const int count : {2, 4}) {
-    const TriangleMesh other = decimate(large_ellipsoid(), 2000, threads(count));
+    const TriangleMesh other =
+        decimate(large_ellipsoid(), 2000, {.thread_count = count, .task = nullptr, .host_parallel_for = {}});
     CHECK(one.positions == other.positions);
     CHECK(one.triangles == other.triangles);
   }
@@ -59,7 +60,7 @@ TEST_CASE("the same bits for one, two and four threads") {
 TEST_CASE("a cancelled decimation stops") {
   Task task;
   task.cancel();
-  Execution execution = threads(2);
+  Execution execution = {.thread_count = 2, .task = nullptr, .host_parallel_for = {}};
   execution.task = &task;
   CHECK_THROWS_AS(decimate(large_ellipsoid(), 2000, execution), Error);
 }

@@ -77,6 +77,19 @@ TEST_CASE("a start whose sides are exchanged is corrected, unless the heading is
   CHECK_FALSE(body.fit(false).is_reversed);
 }
 
+TEST_CASE(
+    "fits are overruled where the forests are sure how the body faces, and decide where these are not") {
+  Body body(11);
+  const BodyFit upright = body.fit(true);
+  body.detection.heading_advantage = 0;
+  const double by_fits = body.fit(true).heading_margin;
+  CHECK(by_fits > 0.02);
+  CHECK(by_fits < upright.heading_margin);
+  body.detection.heading_advantage = -300;  // it was detected backwards
+  CHECK(body.fit(true).is_reversed);
+  CHECK_FALSE(body.fit(false).is_reversed);
+}
+
 TEST_CASE("a start whose legs alone are exchanged is corrected") {
   Body body(11);
   const PlacedSkeleton right = body.start;

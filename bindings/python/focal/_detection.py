@@ -86,7 +86,7 @@ class Detection(Handle):
     _kept: dict[str, Any] | None = None  # of one that came from a pickle
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return detection_again, (detection_state(self),)
+        return detection_again, (Detection, detection_state(self))
 
     def _made_now(self) -> Any:
         if self._made_of is None or self._kept is None:

@@ -113,7 +113,7 @@ class Mesh(Handle):
         return made
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return mesh_again, mesh_state(self)
+        return mesh_again, (Mesh, *mesh_state(self))
 
     def _own_arrays(self) -> tuple[bytes, bytes]:
         """Vertices and faces as the library has them: floats and 32-bit numbers."""

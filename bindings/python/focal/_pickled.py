@@ -1,17 +1,16 @@
-"""What meshes and detections are made of, so that pickle can make them again."""
+"""What meshes and detections are made of, so that pickle can make them again.
+
+Mesh and Detection use this module, so it does not import them: they pass themselves, and their class."""
 from __future__ import annotations
 
 import array
 import os
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from ._abi import Status
+from ._context import context_or_default
 from ._errors import Error
 from ._values import given_of
-
-if TYPE_CHECKING:
-    from ._detection import Detection
-    from ._mesh import Mesh
 
 
 class Source(NamedTuple):
@@ -33,7 +32,7 @@ def path_state(path: Any) -> tuple[str, int, int]:
     return full, found.st_size, found.st_mtime_ns
 
 
-def mesh_state(mesh: Mesh) -> tuple[str, Any, dict[str, Any], tuple[float, float, float]]:
+def mesh_state(mesh: Any) -> tuple[str, Any, dict[str, Any], tuple[float, float, float]]:
     """A .glb goes along as it is; a .gltf, which may have files beside it, by its path."""
     maker, content, parameters = mesh._source
     if maker in ("arrays", "parts"):
@@ -58,7 +57,7 @@ def _check_unchanged(state: tuple[str, int, int]) -> None:
                     "pickle a Mesh while its file is there, or load it with Mesh.from_bytes")
 
 
-def _arrays_of(mesh: Mesh) -> list[tuple[bytes, bytes]]:
+def _arrays_of(mesh: Any) -> list[tuple[bytes, bytes]]:
     vertices, faces = mesh._own_arrays()
     return [(vertices[12 * part.vertices.start:12 * part.vertices.stop],
              _moved(faces[12 * part.triangles.start:12 * part.triangles.stop], part.vertices.start)) for part in mesh.parts]
@@ -71,28 +70,25 @@ def _moved(faces: bytes, first: int) -> bytes:
     return array.array("I", [(number - first) % 2**32 for number in array.array("I", faces)]).tobytes()
 
 
-def mesh_again(maker: str, content: Any, parameters: dict[str, Any], origin: tuple[float, float, float]) -> Mesh:
-    from ._mesh import Mesh
+def mesh_again(kind: Any, maker: str, content: Any, parameters: dict[str, Any], origin: tuple[float, float, float]) -> Any:
     if maker == "path":
-        return Mesh.load(content, **parameters)
+        return kind.load(content, **parameters)
     if maker == "bytes":
-        return Mesh.from_bytes(content, **parameters)
+        return kind.from_bytes(content, **parameters)
     parts = [(array.array("f", vertices), array.array("I", faces)) for vertices, faces in content]
-    made = Mesh(*parts[0], **parameters) if maker == "arrays" else Mesh.from_parts(parts, **parameters)
+    made = kind(*parts[0], **parameters) if maker == "arrays" else kind.from_parts(parts, **parameters)
     made.origin = origin
     return made
 
 
-def detection_state(detection: Detection) -> dict[str, Any]:
+def detection_state(detection: Any) -> dict[str, Any]:
     """What is known without the library, and what the rest is computed from on demand."""
     return {"_kept": {"landmarks": detection.landmarks, "info": detection.info, "seconds": detection.seconds,
                       "warnings": detection.warnings},
             "_made_of": detection._made_of, "_joint_names": detection._joint_names, "_origin": detection._origin}
 
 
-def detection_again(state: dict[str, Any]) -> Detection:
-    from ._context import context_or_default
-    from ._detection import Detection
-    made = Detection._adopt(None, context_or_default(None))
+def detection_again(kind: Any, state: dict[str, Any]) -> Any:
+    made = kind._adopt(None, context_or_default(None))
     vars(made).update(state)
     return made
