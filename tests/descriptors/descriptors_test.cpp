@@ -20,7 +20,7 @@ DescriptorKind centre_distance_descriptor();  // the example of CONTRIBUTING.md
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double reference_area = 2e4;  // to which the times of HKS belong
 
 std::vector<int32_t> all_of(Eigen::Index n) {

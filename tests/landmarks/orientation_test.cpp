@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <numbers>
 
 #include "forest/regression_forest.h"
 #include "landmarks/features.h"
@@ -14,7 +15,7 @@ using namespace focal_test;
 
 namespace {
 
-constexpr double pi = 3.141592653589793;
+using std::numbers::pi;
 
 SurfaceAnalysis analysed(const Matrix3& turn, uint64_t seed = 5, int32_t max_described = 0) {
   TriangleMesh mesh = with_radius(sphere(4), lump);

@@ -16,7 +16,7 @@ using namespace focal_test;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 double volume(const TriangleMesh& mesh) {
   double six = 0;
