@@ -124,9 +124,11 @@ struct Supposition {
   ConstellationStatistics statistics;
   std::vector<ConstellationChoice> choices;
   Placement start;
-  double penalty = 0;
+  double penalty = 0, heading_penalty = 0;  // the former includes the latter
 
   double min_cost() const { return choices[0].energy + penalty; }
+  // The energy of a constellation varies by 10 between seeds, that of a heading does not: half of it counts.
+  double heading_cost() const { return (min_cost() + heading_penalty) / 2; }
 };
 
 double min_cost(const std::vector<Supposition>& suppositions) {
@@ -140,8 +142,8 @@ double heading_advantage(const std::vector<Supposition>& suppositions, const Mat
   double along = std::numeric_limits<double>::infinity(), opposite = along;
   for (const Supposition& one : suppositions) {
     const double cosine = one.start.frame.row(2).dot(chosen.row(2));
-    if (cosine > 0.9) along = std::min(along, one.min_cost());
-    if (cosine < -0.9) opposite = std::min(opposite, one.min_cost());
+    if (cosine > 0.9) along = std::min(along, one.heading_cost());
+    if (cosine < -0.9) opposite = std::min(opposite, one.heading_cost());
   }
   return opposite - along;
 }
@@ -152,7 +154,7 @@ Supposition suppose(const LandmarkModel& model, const SurfaceAnalysis& analysis,
   Supposition result;
   Placement& start = result.start;
   const RowMatrixf features = features_of(analysis, samples, model.params, heading.frame);
-  start.frame = heading.frame, result.penalty = heading.penalty;
+  start.frame = heading.frame, result.penalty = result.heading_penalty = heading.penalty;
   start.exemplars = most_alike(model, features, used_exemplars);
   result.statistics = statistics_of(model, start.exemplars);
   start.votes = analysis.engine->votes(analysis, model, features, execution, seconds);

@@ -37,8 +37,8 @@ struct Placement {
   float map_residual = 0;               // mean over these maps; 0 without maps
   float bulge_agreement = 0;            // mean over the maps, see bulge_agreement
   Matrix3 frame = Matrix3::Identity();  // the assumed orientation, see features_of
-  // How much more energy the best opposite heading has: less than 0 where maps overruled it; infinite without
-  // one.
+  // How much more the best opposite heading costs, by the forests and half by the constellations: less than 0
+  // where maps overruled it; infinite without one.
   double heading_advantage = std::numeric_limits<double>::infinity();
   double cost_margin = 0;  // extra cost of the second-best configuration; infinite: none is close
   RowMatrixf votes;        // vertices of the analysed surface x landmarks
