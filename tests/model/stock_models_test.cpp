@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "base/system.h"
 #include "platform.h"
 #include "temporary_folder.h"
 
@@ -31,7 +32,8 @@ struct Variable {
 }  // namespace
 
 TEST_CASE("folders: the host's, those of FOCAL_MODELS, those of the installation") {
-  const Variable variable(":/one::/two");
+  const std::string between(1, list_separator);
+  const Variable variable(between + "/one" + between + between + "/two");
   const auto folders = stock_folders("/host", "/opt/focal/lib");
   REQUIRE(folders.size() == 7);
   CHECK(folders[0] == "/host");
@@ -55,8 +57,8 @@ TEST_CASE("models: by name, the first folder counts, other files and missing fol
   const auto models = stock_models_in(folders);
   REQUIRE(models.size() == 2);
   CHECK(models[0].name == "hand");
-  CHECK(models[1].path == (first.path / "quadruped.focal").string());
-  CHECK(stock_model(models, "hand").path == (second.path / "hand.focal").string());
+  CHECK(models[1].path == first.path.string() + "/quadruped.focal");
+  CHECK(stock_model(models, "hand").path == second.path.string() + "/hand.focal");
 }
 
 TEST_CASE("an unknown name lists those that are there; without any it says how to get some") {
