@@ -104,7 +104,7 @@ def main() -> int:
     parser.add_argument("--weights", type=float, default=0.02)
     options = parser.parse_args()
     worst_edges = worst_joint = worst_share = 0.0
-    landmarks = rigs = files = 0
+    landmarks = beyond = rigs = files = 0
     for path in sorted(options.reference.glob("*.landmarks.json")):
         files += 1
         edge = mean_edge(Glb(options.meshes / (path.name.removesuffix(".landmarks.json") + ".glb")))
@@ -119,7 +119,9 @@ def main() -> int:
                 worst_edges = max(worst_edges, 0.0 if a.get("position") == b.get("position") else math.inf)
                 continue
             landmarks += 1
-            worst_edges = max(worst_edges, math.dist(a["position"], b["position"]) / edge)
+            apart = math.dist(a["position"], b["position"]) / edge
+            beyond += apart > options.edges
+            worst_edges = max(worst_edges, apart)
     for path in sorted(options.reference.glob("*.rigged.glb")):
         rigs += 1
         one, other = Glb(path), Glb(options.other / path.name)
@@ -130,7 +132,7 @@ def main() -> int:
             continue
         worst_joint = max([worst_joint] + [math.dist(places[name], others[name]) / size for name in places])
         worst_share = max(worst_share, share_that_differs(weights_of(one), weights_of(other), options.weights))
-    print(f"{landmarks} landmarks of {files} meshes: at most {worst_edges:.4f} edges apart; {rigs} rigs: joints at most "
+    print(f"{landmarks} landmarks of {files} meshes: at most {worst_edges:.4f} edges apart, {beyond} beyond {options.edges}; {rigs} rigs: joints at most "
           f"{worst_joint:.6f} of the size apart, {100 * worst_share:.2f} % of the vertices of a mesh with other weights")
     fits = worst_edges <= options.edges and worst_joint <= options.joints and worst_share <= 0.001
     return 0 if files + rigs > 0 and fits else 1
