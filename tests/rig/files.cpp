@@ -60,7 +60,7 @@ void judge(const std::shared_ptr<const LandmarkModel>& model, const std::string&
   }
   const auto m = focal_test::compare_skeletons(mine, joints, body);
   std::printf("%-20s %6zu %6zu %6d %6d %8.2f %8.2f %8.2f %8.2f %7.1f %7.1f %7.1f %6.2f %s\n",
-              std::filesystem::path(file).stem().c_str(), joints.size(), mine.size(), inside, same,
+              std::filesystem::path(file).stem().string().c_str(), joints.size(), mine.size(), inside, same,
               100 * error / std::max(same, 1), 100 * m.joints_to_joints, 100 * m.joints_to_bones,
               100 * m.bones_to_bones, 100 * m.iou, 100 * m.precision, 100 * m.recall, seconds,
               outside.c_str());
