@@ -92,8 +92,10 @@ SurfaceAnalysis analyse_surface(std::shared_ptr<const PreparedMesh> mesh, const 
   Random random(params.seed, params.stream);
   const int32_t n = result.surface().vertex_count(), count = sample_count(n, params);
   result.samples = sample_without_replacement(random, n, count);
-  result.descriptors = result.engine->descriptors(result, basis, result.samples, execution);
   result.described = describe_spread(result, basis, execution);
+  const bool all_described = static_cast<int32_t>(result.described.vertices.size()) == n;
+  result.descriptors = all_described ? RowMatrixf(result.described.descriptors(result.samples, Eigen::all))
+                                     : result.engine->descriptors(result, basis, result.samples, execution);
   describe_relief(result, execution);
   result.descriptor_seconds = watch.lap();
   return result;

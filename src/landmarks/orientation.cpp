@@ -77,12 +77,14 @@ std::vector<Heading> headings_about_up(const LandmarkModel& model, const Surface
                                    {0, 0, 1}, {1, 0, 1});
   const double best = std::atan2(seen(0, 2) - seen(2, 0), seen(0, 0) + seen(2, 2));
   const auto penalty = [&](double angle) {
-    return (std::abs(angle) < 0.5 ? 0 : prior) - facing_weight * fit(seen, about_up(angle));
+    const bool is_usual = std::abs(std::remainder(angle, 2 * EIGEN_PI)) < 0.5;
+    return (is_usual ? 0 : prior) - facing_weight * fit(seen, about_up(angle));
   };
-  std::vector<Heading> result;
-  for (const double angle : {0.0, double{EIGEN_PI}}) result.push_back({about_up(angle), penalty(angle)});
-  if (std::abs(best) > 0.6 && std::abs(best) < EIGEN_PI - 0.6)
-    result.push_back({about_up(best), penalty(best)});
+  const auto heading = [&](double angle) -> Heading {
+    return {about_up(angle), penalty(angle), penalty(angle + EIGEN_PI) - penalty(angle)};
+  };
+  std::vector<Heading> result{heading(0), heading(EIGEN_PI)};
+  if (std::abs(best) > 0.6 && std::abs(best) < EIGEN_PI - 0.6) result.push_back(heading(best));
   return result;
 }
 

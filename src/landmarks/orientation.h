@@ -1,5 +1,6 @@
 // Possible orientations of a body in its file's coordinates.
 #pragma once
+#include <limits>
 #include <vector>
 
 #include "analysis/surface_analysis.h"
@@ -10,6 +11,8 @@ namespace focal {
 struct Heading {
   Matrix3 frame = Matrix3::Identity();  // see features_of
   double penalty = 0;                   // energy added before anything is known about the body
+  // How much larger the penalty of the opposite heading is; infinite where the heading is known.
+  double advantage = std::numeric_limits<double>::infinity();
 };
 
 // Headings in this order: as the training shapes stand; facing backwards, which looks most similar to it;

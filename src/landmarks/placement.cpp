@@ -124,11 +124,9 @@ struct Supposition {
   ConstellationStatistics statistics;
   std::vector<ConstellationChoice> choices;
   Placement start;
-  double penalty = 0, heading_penalty = 0;  // the former includes the latter
+  double penalty = 0;
 
   double min_cost() const { return choices[0].energy + penalty; }
-  // The energy of a constellation varies by 10 between seeds, that of a heading does not: half of it counts.
-  double heading_cost() const { return (min_cost() + heading_penalty) / 2; }
 };
 
 double min_cost(const std::vector<Supposition>& suppositions) {
@@ -137,24 +135,14 @@ double min_cost(const std::vector<Supposition>& suppositions) {
   return least;
 }
 
-// See Placement::heading_advantage.
-double heading_advantage(const std::vector<Supposition>& suppositions, const Matrix3& chosen) {
-  double along = std::numeric_limits<double>::infinity(), opposite = along;
-  for (const Supposition& one : suppositions) {
-    const double cosine = one.start.frame.row(2).dot(chosen.row(2));
-    if (cosine > 0.9) along = std::min(along, one.heading_cost());
-    if (cosine < -0.9) opposite = std::min(opposite, one.heading_cost());
-  }
-  return opposite - along;
-}
-
 Supposition suppose(const LandmarkModel& model, const SurfaceAnalysis& analysis, const Heading& heading,
                     int32_t samples, const DetectParams& params, const Execution& execution,
                     StageSeconds& seconds) {
   Supposition result;
   Placement& start = result.start;
   const RowMatrixf features = features_of(analysis, samples, model.params, heading.frame);
-  start.frame = heading.frame, result.penalty = result.heading_penalty = heading.penalty;
+  start.frame = heading.frame, start.heading_advantage = heading.advantage;
+  result.penalty = heading.penalty;
   start.exemplars = most_alike(model, features, used_exemplars);
   result.statistics = statistics_of(model, start.exemplars);
   start.votes = analysis.engine->votes(analysis, model, features, execution, seconds);
@@ -287,7 +275,6 @@ Placement place_landmarks(const LandmarkModel& model, const SurfaceAnalysis& ana
     rank_by_maps(model, analysis, 0, execution, hypotheses);
   }
   Placement result = std::move(hypotheses[0].placement);
-  result.heading_advantage = heading_advantage(suppositions, result.frame);
   result.cost_margin = hypotheses.size() > 1 ? hypotheses[1].cost - hypotheses[0].cost
                                              : std::numeric_limits<double>::infinity();
   join_transferred_landmarks(model, analysis, params.quality, result, execution);

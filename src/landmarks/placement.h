@@ -37,9 +37,7 @@ struct Placement {
   float map_residual = 0;               // mean over these maps; 0 without maps
   float bulge_agreement = 0;            // mean over the maps, see bulge_agreement
   Matrix3 frame = Matrix3::Identity();  // the assumed orientation, see features_of
-  // How much more the best opposite heading costs, by the forests and half by the constellations: less than 0
-  // where maps overruled it; infinite without one.
-  double heading_advantage = std::numeric_limits<double>::infinity();
+  double heading_advantage = std::numeric_limits<double>::infinity();  // of this orientation, see Heading
   double cost_margin = 0;  // extra cost of the second-best configuration; infinite: none is close
   RowMatrixf votes;        // vertices of the analysed surface x landmarks
 };

@@ -12,28 +12,12 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/file_calls.h"
 #include "temporary_folder.h"
 
 using namespace focal;
-using focal_test::TemporaryFolder;
+using focal_test::filled, focal_test::status_of, focal_test::TemporaryFolder;
 namespace fs = std::filesystem;
-
-namespace {
-
-std::vector<std::byte> filled(size_t size, char c) { return std::vector<std::byte>(size, std::byte(c)); }
-
-template <class Call>
-Status status_of(Call&& call) {
-  try {
-    call();
-    return Status::ok;
-  } catch (const Error& error) {
-    CHECK_FALSE(error.hint().empty());
-    return error.status();
-  }
-}
-
-}  // namespace
 
 TEST_CASE("what is written is read, and replaces what was there") {
   const TemporaryFolder folder;

@@ -1,38 +1,21 @@
-// Files are written whole or not at all.
+// Names of files, and files that cannot be read or written.
 #include "files.h"
 
 #include <doctest/doctest.h>
-#include <sys/stat.h>
 
 #include "command_error.h"
+#include "paths.h"
 #include "scratch_folder.h"
 
 using namespace focal_cli;
 
-TEST_CASE("a file is replaced as a whole, keeps its permissions and leaves nothing beside it") {
+TEST_CASE("names are UTF-8") {
   const ScratchFolder scratch;
-  const std::string path = scratch.write("a.txt", "old");
-  ::chmod(path.c_str(), 0640);
-  write_file_atomically(path, "new and longer");
-  CHECK(read_text_file(path) == "new and longer");
-  struct stat status;
-  REQUIRE(::stat(path.c_str(), &status) == 0);
-  CHECK((status.st_mode & 0777) == 0640);
-  CHECK(std::distance(std::filesystem::directory_iterator(scratch.path), {}) == 1);
-}
-
-TEST_CASE("through a link the file it names is written") {
-  const ScratchFolder scratch;
-  const std::string path = scratch.write("real.txt", "old");
-  std::filesystem::create_symlink("real.txt", scratch / "link.txt");
-  write_file_atomically(scratch / "link.txt", "new");
-  CHECK(read_text_file(path) == "new");
-  CHECK(std::filesystem::is_symlink(scratch / "link.txt"));
-}
-
-TEST_CASE("a device is written to, not replaced") {
-  write_file_atomically("/dev/null", "gone");
-  CHECK(std::filesystem::is_character_file("/dev/null"));
+  const std::string path = scratch / "x" + reinterpret_cast<const char*>(u8"狐 und Füchse.json");
+  write_file_atomically(path, "{}");
+  CHECK(read_text_file(path) == "{}");
+  CHECK(std::filesystem::exists(path_of(path)));
+  CHECK(text_of(path_of(path)) == path);
 }
 
 TEST_CASE("what cannot be written or read says so, with a hint") {

@@ -14,7 +14,7 @@ import sys
 numbers = [a for a in sys.argv[2:] if not a.startswith("--")]
 least = float(numbers[0]) if numbers else 90
 root = pathlib.Path(__file__).resolve().parents[2]
-GROUPS = {"src/gltf/*": "gltf", "src/base/archive.*": "model file", "src/model/*_file.*": "model file", "src/analysis/*_file.*": "model file", "capi/*": "capi"}
+GROUPS = {"src/gltf/*": "gltf", "src/base/archive.*": "model file", "src/base/utf8.*": "model file", "src/model/*_file.*": "model file", "src/analysis/*_file.*": "model file", "capi/*": "capi"}
 
 
 def group_of(name):

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "forest/regression_forest.h"
@@ -67,6 +68,8 @@ TEST_CASE("headings: a body that stands as learned is tried so, and backwards, w
   CHECK(headings[0].frame.isIdentity(1e-12));
   CHECK(headings[1].frame.isApprox(turn_about({0, 1, 0}, pi), 1e-12));
   CHECK(headings[0].penalty < headings[1].penalty);
+  CHECK(headings[0].advantage == doctest::Approx(headings[1].penalty - headings[0].penalty));
+  CHECK(headings[1].advantage == doctest::Approx(-headings[0].advantage));
 }
 
 TEST_CASE("headings: one that faces elsewhere is tried as it faces") {
@@ -81,6 +84,7 @@ TEST_CASE("headings: one that faces elsewhere is tried as it faces") {
       CHECK((headings[h].frame * Vector3::UnitY()).isApprox(Vector3::UnitY(), 1e-9));
     CHECK(degrees_off(headings[upright - 1], turn) < 15);
     CHECK(&cheapest(headings) == &headings[upright - 1]);
+    CHECK(headings[upright - 1].advantage > 0);  // of one between the axes too, whose opposite is not tried
   }
 }
 
@@ -130,4 +134,5 @@ TEST_CASE("headings: a model without an orientation has one") {
   REQUIRE(headings.size() == 1);
   CHECK(headings[0].frame == Matrix3::Identity());
   CHECK(headings[0].penalty == 0);
+  CHECK(std::isinf(headings[0].advantage));
 }

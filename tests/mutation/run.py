@@ -36,6 +36,7 @@ SUBJECTS = [
     ("src/gltf/*.cpp", ["*gltf/*"], ["mesh"]),
     ("src/base/archive.cpp", ["*base/archive*"], []),
     ("src/model/*_file.cpp", ["*model/*_file*"], []),
+    ("src/base/utf8.cpp", ["*model/*_file*"], []),
     ("capi/*.cpp", [], None),
 ]
 # Of the C interface: tests/capi/X_test for capi/X.cpp, and these, the likeliest and quickest first.

@@ -35,6 +35,7 @@ start_wine() {
   export WINEPREFIX="$build/wine" WINEDEBUG=-all WINEDLLOVERRIDES='mscoree=;mshtml=' LC_ALL=C.UTF-8
   export WINEPATH="Z:$build/capi"  # where focal.dll lies
   wineboot --init > /dev/null 2>&1
+  wineserver --wait  # of the set-up; a server that runs cannot be made persistent
   wineserver --persistent  # kept between programs: each would start it again
   trap 'wineserver --kill' EXIT
   wine "$build/bindings/cli/focal.exe" --version
